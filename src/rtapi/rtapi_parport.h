@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ * rtapi_parport.h - parallel ports. get and release [init]; the accessors [rt]. */
+#ifndef RTAPI_PARPORT_H
+#define RTAPI_PARPORT_H
+
+#include "rtapi_io.h"
+#include "rtapi_stdint.h"
+
+typedef struct rtapi_parport {
+    unsigned short base;    /* I/O address of the data register */
+    unsigned short base_hi; /* of the extended registers, 0 if none */
+    int fd;                 /* of /dev/parportN while claimed, else -1 */
+} rtapi_parport_t;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+/* base below 16: number of a Linux port; else an I/O address. A port that Linux
+ * knows is claimed for this process. 0, -ENOENT, or another -errno. */
+int rtapi_parport_get(const char *module_name, rtapi_parport_t *port, unsigned short base, unsigned short base_hi,
+                      unsigned int modes);
+void rtapi_parport_release(rtapi_parport_t *port);
+#ifdef __cplusplus
+}
+#endif
+
+static inline rtapi_u8 rtapi_parport_data_read(rtapi_parport_t *port) { return rtapi_inb(port->base); }
+static inline rtapi_u8 rtapi_parport_status_read(rtapi_parport_t *port) { return rtapi_inb(port->base + 1); }
+static inline rtapi_u8 rtapi_parport_control_read(rtapi_parport_t *port) { return rtapi_inb(port->base + 2); }
+static inline rtapi_u8 rtapi_parport_epp_data_readb(rtapi_parport_t *port) { return rtapi_inb(port->base + 4); }
+static inline rtapi_u32 rtapi_parport_epp_data_readl(rtapi_parport_t *port) { return rtapi_inl(port->base + 4); }
+static inline rtapi_u8 rtapi_parport_ecr_read(rtapi_parport_t *port) { return rtapi_inb(port->base_hi + 2); }
+static inline void rtapi_parport_data_write(rtapi_parport_t *port, rtapi_u8 value) { rtapi_outb(value, port->base); }
+static inline void rtapi_parport_status_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_outb(value, port->base + 1);
+}
+static inline void rtapi_parport_control_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_outb(value, port->base + 2);
+}
+static inline void rtapi_parport_epp_addr_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_outb(value, port->base + 3);
+}
+static inline void rtapi_parport_epp_data_writeb(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_outb(value, port->base + 4);
+}
+static inline void rtapi_parport_epp_data_writel(rtapi_parport_t *port, rtapi_u32 value)
+{
+    rtapi_outl(value, port->base + 4);
+}
+static inline void rtapi_parport_ecr_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_outb(value, port->base_hi + 2);
+}
+
+#endif
