@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Waiting and starting programs, in real or virtual time, for our Python programs.
+
+A thin layer over the module kerf_clock (src/rtapi): a script that drives the controller
+joins the clock, so that in virtual time nothing moves while it works.
+"""
+
+import os
+import subprocess
+
+import kerf_clock
+
+
+def join(name, priority=100):
+    """Takes part in the clock from now on; in real time this does nothing."""
+    kerf_clock.join(name, priority)
+
+
+def leave():
+    kerf_clock.leave()
+
+
+def now():
+    """Seconds on the controller's clock."""
+    return kerf_clock.now()
+
+
+def sleep(seconds):
+    """Waits on the controller's clock."""
+    kerf_clock.sleep(seconds)
+
+
+def wait_until(condition, timeout, step=0.01):
+    """Polls until condition() is true. False after timeout seconds."""
+    end = now() + timeout
+    while not condition():
+        if now() >= end:
+            return False
+        sleep(step)
+    return True
+
+
+def is_virtual():
+    return kerf_clock.is_virtual()
+
+
+def run(command, **options):
+    """subprocess.run of a child that shares our place on the clock while we wait for it."""
+    env = dict(options.pop("env", None) or os.environ)
+    env.update(kerf_clock.lend_env())
+    return subprocess.run(command, env=env, **options)
+
+
+def spawn(command, name, priority=100, **options):
+    """subprocess.Popen of a child with a place of its own on the clock (held until it joins)."""
+    env = dict(options.pop("env", None) or os.environ)
+    slot = kerf_clock.reserve(name, priority)
+    env.update(kerf_clock.reserved_env(slot))
+    try:
+        child = subprocess.Popen(command, env=env, **options)
+    except OSError:
+        kerf_clock.release(slot)
+        raise
+    kerf_clock.assign(slot, child.pid)
+    return child

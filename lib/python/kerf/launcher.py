@@ -1,0 +1,679 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The `linuxcnc` command: starts a machine from its INI file and stops it again.
+
+A small guard process starts the session process and waits. Whichever of the two is
+killed, the other one ends everything that was started, so nothing is left behind.
+Order, texts and exit statuses: launcher reference, sections 1 to 7.
+"""
+
+import ctypes
+import getopt
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import uuid
+from pathlib import Path
+
+from . import clock
+from .inivalues import IniError, IniValues
+from .tree import Tree, suffixed
+
+USAGE = """linuxcnc: Run LinuxCNC
+
+Usage:
+  linuxcnc [options] [INIFILE] [display arguments]
+  linuxcnc -l | -h
+
+Options:
+  -d           debug messages          -v           verbose messages
+  -r           no redirection of output when standard input is not a terminal
+  -l           use the last configuration again
+  -k           go on after errors in HAL files
+  -t "MODULE [PARAMETERS]"   trajectory planner module
+  -m "MODULE [PARAMETERS]"   homing module
+  -H DIR       search DIR for HAL files first (may be repeated)
+  -D "PROGRAM [ARGUMENTS]"   display program, instead of [DISPLAY]DISPLAY
+"""
+
+READY_WAIT_S = 10.0     # for task to publish the first settings
+CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
+SESSION = "LINUXCNC_SESSION"
+PR_SET_PDEATHSIG = 1
+
+
+class Failure(Exception):
+    """Ends the start-up: the text says what, where and what to do; status is the exit status."""
+
+    def __init__(self, text, status=1):
+        super().__init__(text)
+        self.status = status
+
+
+class Options:
+    """The command line."""
+
+    def __init__(self, argv):
+        self.debug = self.verbose = self.test_mode = self.keep_going = self.last = False
+        self.tpmod = self.homemod = self.display = None
+        self.hallib_dirs = []
+        try:
+            found, rest = getopt.getopt(argv, "dvlhkrH:t:m:D:")
+        except getopt.GetoptError as e:
+            print(f"linuxcnc: {e}", file=sys.stderr)
+            print(USAGE)
+            sys.exit(1)
+        for flag, value in found:
+            if flag == "-h":
+                print(USAGE)
+                sys.exit(0)
+            elif flag == "-H":
+                if not os.path.isdir(value):
+                    print(f"Invalid dirname specified: -H {value}")
+                    sys.exit(1)
+                self.hallib_dirs.append(os.path.realpath(value))
+            else:
+                name = {"-d": "debug", "-v": "verbose", "-r": "test_mode", "-k": "keep_going", "-l": "last",
+                        "-t": "tpmod", "-m": "homemod", "-D": "display"}[flag]
+                setattr(self, name, value or True)
+        self.ini = rest[0] if rest else None
+        self.extra = rest[1:]
+        if self.ini == "-":
+            self.last, self.ini = True, None
+
+
+def last_config():
+    """Path of the configuration that the picker remembered, or None."""
+    rc = Path.home() / ".linuxcncrc"
+    if not rc.exists():
+        return None
+    try:
+        return IniValues(rc).get("PICKCONFIG", "LAST_CONFIG")
+    except IniError:
+        return None
+
+
+def status_of(returncode):
+    """Shell-like exit status of a subprocess."""
+    return 128 - returncode if returncode < 0 else returncode
+
+
+def session_processes(session):
+    """Ids of all other processes that this session started, at any depth."""
+    wanted = f"{SESSION}={session}".encode()
+    found = []
+    for entry in os.listdir("/proc"):
+        if not entry.isdigit() or int(entry) in (os.getpid(), os.getppid()):
+            continue
+        try:
+            with open(f"/proc/{entry}/environ", "rb") as f:
+                if wanted not in f.read().split(b"\0"):
+                    continue
+            with open(f"/proc/{entry}/stat") as f:
+                if f.read().rsplit(")", 1)[1].split()[0] not in "ZX":
+                    found.append(int(entry))
+        except OSError:
+            continue
+    return found
+
+
+def comm_of(pid):
+    try:
+        with open(f"/proc/{pid}/comm") as f:
+            return f.read().strip()
+    except OSError:
+        return ""
+
+
+def end(pids, still_there=lambda pid: os.path.exists(f"/proc/{pid}") and state_of(pid) not in "ZX"):
+    """TERM, then KILL, each with a wait. Returns those that did not go."""
+    for sig in (signal.SIGTERM, signal.SIGKILL):
+        for pid in pids:
+            try:
+                os.kill(pid, sig)
+            except OSError:
+                pass
+        until = time.monotonic() + CHILD_END_S
+        while pids and time.monotonic() < until:
+            reap()
+            pids = [p for p in pids if still_there(p)]
+            if pids:
+                time.sleep(0.005)
+        if not pids:
+            break
+    return pids
+
+
+def reap():
+    """Collects children that have ended."""
+    try:
+        while os.waitpid(-1, os.WNOHANG)[0]:
+            pass
+    except ChildProcessError:
+        pass
+
+
+def state_of(pid):
+    try:
+        with open(f"/proc/{pid}/stat") as f:
+            return f.read().rsplit(")", 1)[1].split()[0]
+    except OSError:
+        return "X"
+
+
+class Session:
+    """One machine: everything between the lock file's creation and its removal."""
+
+    def __init__(self, options, ini_path, tree):
+        self.options, self.tree = options, tree
+        self.ini_path = ini_path
+        self.ini = None
+        self.lock = suffixed("/tmp/linuxcnc.lock")
+        self.id = os.environ.get(SESSION + "_NEW") or uuid.uuid4().hex
+        self.env = tree.environment()
+        self.env[SESSION] = self.id
+        config_dir = os.path.dirname(ini_path)
+        self.env["PATH"] = os.pathsep.join([config_dir + "/bin", self.env["PATH"]])
+        local_bin = os.path.expanduser("~/.local/bin")
+        if os.path.isdir(local_bin) and local_bin not in self.env["PATH"].split(os.pathsep):
+            self.env["PATH"] += os.pathsep + local_bin
+        hallib_path = os.pathsep.join(options.hallib_dirs + [".", str(tree.hallib)])
+        self.halcmd = ["halcmd"] + (["-k"] if options.keep_going else [])
+        self.env.update(CONFIG_DIR=config_dir, HALLIB_PATH=hallib_path, HALCMD=" ".join(self.halcmd))
+        if options.hallib_dirs:
+            print(f"HALLIB_PATH = {hallib_path}")
+        if os.environ.get("LINUXCNC_OPENGL_PLATFORM", "glx") == "glx":
+            self.env.update(PYOPENGL_PLATFORM="x11", GDK_BACKEND="x11", QT_QPA_PLATFORM="xcb")
+        # Our own look-ups (subprocess, shutil.which) use the same path.
+        os.environ["PATH"] = self.env["PATH"]
+        self.watched = {}        # pid -> name: the session ends when one of these dies
+        self.display = None
+        self.have_lock = False
+
+    # -- helpers ---------------------------------------------------------------------------
+
+    def run(self, *command, quiet=False):
+        """Runs a program of ours to its end; returns its exit status."""
+        options = dict(env=self.env, stdin=subprocess.DEVNULL)
+        if quiet:
+            options.update(stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            return status_of(clock.run(list(command), **options).returncode)
+        except FileNotFoundError:
+            raise Failure(f"Can't execute {command[0]}: not found on PATH") from None
+
+    def output(self, *command):
+        done = clock.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                         stderr=subprocess.DEVNULL, text=True)
+        return done.stdout.strip() if done.returncode == 0 else ""
+
+    def need_program(self, name, message):
+        if not shutil.which(name, path=self.env["PATH"]):
+            raise Failure(message)
+
+    # -- start -----------------------------------------------------------------------------
+
+    def check_ini(self):
+        try:
+            self.ini = IniValues(self.ini_path, self.env)
+        except IniError as e:
+            sys.stderr.write(str(e))
+            raise Failure("E: The INI-file contains errors that need to be fixed.") from None
+        sys.stderr.write(self.ini.messages)
+        if not self.ini.sections:
+            raise Failure("E: The INI-file contains errors that need to be fixed.")
+        if not self.options.test_mode:
+            print(f"Machine configuration directory is '{os.path.dirname(self.ini_path)}'")
+            print(f"Machine configuration file is '{os.path.basename(self.ini_path)}'", flush=True)
+        if self.ini.get("EMC", "VERSION") != "1.1":
+            self.update_ini()
+        status = self.run("linuxcnc_check_ini", self.ini_path)
+        if status == 1:
+            raise Failure("linuxcnc_check_ini validation failed")
+        if status:
+            raise Failure("linuxcnc_check_ini validation failed in an unexpected way.", status)
+
+    def update_ini(self):
+        if not os.environ.get("DISPLAY"):
+            raise Failure("INI file [EMC]VERSION indicates update is needed, but the update GUI can't run "
+                          "without an X display")
+        status = self.run("update_ini", "-d", self.ini_path)
+        if status == 42:
+            raise Failure("update_ini cancelled by user", 0)
+        if status:
+            raise Failure("update script failed in an unexpected way.", status)
+        self.ini = IniValues(self.ini_path, self.env)
+
+    def read_settings(self):
+        get = self.ini.get
+        self.task = get("TASK", "TASK") or "milltask"
+        self.halui = get("HAL", "HALUI")
+        self.halbridge = get("HAL", "HALBRIDGE")
+        words = (self.options.display or get("DISPLAY", "DISPLAY") or "").split()
+        if not words:
+            raise Failure(f"{self.ini_path}: [DISPLAY]DISPLAY is missing: name a user interface, e.g. DISPLAY = axis")
+        self.display_program, self.display_args = words[0], words[1:]
+        nml = get("EMC", "NML_FILE")
+        self.env.update(NMLFILE=os.path.join(os.path.dirname(self.ini_path), nml) if nml else str(self.tree.nml),
+                        TRAJ_COORDINATES=get("TRAJ", "COORDINATES") or "",
+                        KINS_KINEMATICS=get("KINS", "KINEMATICS") or "")
+        self.tpmod = self.options.tpmod or get("TRAJ", "TPMOD") or "tpmod"
+        self.homemod = self.options.homemod or get("EMCMOT", "HOMEMOD") or "homemod"
+
+    def take_lock(self):
+        """Makes the lock file; a lock whose session is dead is removed with all it left."""
+        while True:
+            try:
+                fd = os.open(self.lock, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o644)
+                os.write(fd, f"{os.getpid()} {self.id}\n".encode())
+                os.close(fd)
+                self.have_lock = True
+                return
+            except FileExistsError:
+                pass
+            try:
+                with open(self.lock) as f:
+                    owner, old_id = (f.read().split() + ["0", ""])[:2]
+            except OSError:
+                continue
+            if owner.isdigit() and old_id and not os.path.exists(f"/proc/{owner}"):
+                print("Cleaning up after a session that ended without cleaning up...")
+            elif not self.wants_restart():
+                raise Failure("Not starting new LinuxCNC", 0)
+            else:
+                print("Cleaning up old LinuxCNC...", flush=True)
+            self.clean_other(int(owner) if owner.isdigit() else 0, old_id)
+
+    def wants_restart(self):
+        if sys.stdin.isatty():
+            answer = input("LinuxCNC is still running.  Restart it? [Y/n] ")
+            return answer in ("", "y", "Y", "yes")
+        if not os.environ.get("DISPLAY"):
+            print("No display, no tty, trying to clean up other instance automatically", flush=True)
+            return True
+        script = ("wm withdraw .; set a [tk_messageBox -type yesno -title LinuxCNC -message "
+                  "{LinuxCNC is still running.  Restart it?}]; puts $a; exit")
+        done = subprocess.run(["wish8.6"], input=script, stdout=subprocess.PIPE, text=True)
+        return done.stdout.strip() == "yes"
+
+    def clean_other(self, owner, old_id):
+        if owner and os.path.exists(f"/proc/{owner}"):
+            os.kill(owner, signal.SIGTERM)
+            until = time.monotonic() + 5 * CHILD_END_S
+            while os.path.exists(self.lock) and time.monotonic() < until:
+                time.sleep(0.01)
+            if not os.path.exists(self.lock):
+                return
+        mine, self.id = self.id, old_id
+        self.clean(remove_lock=True)
+        self.id = mine
+
+    def start(self):
+        o, env = self.options, self.env
+        print("Starting LinuxCNC...", flush=True)
+        os.chdir(os.path.dirname(self.ini_path))
+        env["INI_FILE_NAME"] = self.ini_path
+        self.need_program("linuxcncsvr", "Can't execute server program linuxcncsvr")
+        if self.run("linuxcncsvr", "-ini", self.ini_path):
+            raise Failure("linuxcncsvr could not create the NML channels: see its messages above")
+        if self.run(str(self.tree.realtime), "start"):
+            raise Failure("Realtime system did not load")
+        print(f"linuxcnc TPMOD={self.tpmod} HOMEMOD={self.homemod} EMCMOT={self.ini.get('EMCMOT', 'EMCMOT')}",
+              flush=True)
+        for module in (self.tpmod, self.homemod):
+            if self.run(*self.halcmd, "loadrt", *module.split()):
+                raise Failure(f"{self.ini_path}: cannot load realtime module '{module}'")
+        self.need_program(self.task, f"Can't execute TASK program {self.task}")
+        if self.run(*self.halcmd, "loadusr", "-Wn", "inihal", self.task, "-ini", self.ini_path):
+            raise Failure(f"TASK program {self.task} did not start: see its messages above")
+        if self.halui:
+            self.need_program(self.halui.split()[0], f"Can't execute halui program {self.halui}")
+            self.run(*self.halcmd, "loadusr", "-Wn", "halui", *self.halui.split(), "-ini", self.ini_path)
+        if self.halbridge:
+            self.run(*self.halcmd, "loadusr", "-Wn", "bridge", *self.halbridge.split())
+        self.load_hal()
+        if self.run(*self.halcmd, "start"):
+            raise Failure("halcmd start failed")
+        self.start_applications()
+        self.wait_ready()
+        self.watch()
+        return self.run_display()
+
+    def load_hal(self):
+        if self.ini.get("HAL", "TWOPASS"):
+            script = self.tree.tcl / "twopass.tcl"
+            status = self.run("haltcl", "-i", self.ini_path, str(script))
+            if status and not self.options.keep_going:
+                raise Failure(f"{self.ini_path}: [HAL]TWOPASS failed: see the messages above")
+        else:
+            for entry in self.ini.all("HAL", "HALFILE"):
+                if not entry:
+                    break
+                self.load_hal_file(entry)
+        for line in self.ini.all("HAL", "HALCMD"):
+            if self.run(*self.halcmd, *shlex.split(line, posix=False)) and not self.options.keep_going:
+                raise Failure(f"INI file HAL command {line} failed.")
+
+    def find_hal_file(self, name):
+        """(kind, path) of a HAL file by the documented search."""
+        if name.startswith("LIB:"):
+            path = str(self.tree.hallib / name[4:])
+            if not os.access(path, os.R_OK):
+                raise Failure(f"CANNOT READ LIB:file:{path}")
+            return "LIB", path
+        name = os.path.expanduser(name) if name.startswith("~/") else name
+        if name.startswith("/"):
+            if os.access(name, os.R_OK) and os.path.isfile(name):
+                return "ABS", name
+        else:
+            for folder in self.env["HALLIB_PATH"].split(os.pathsep):
+                path = os.path.join(folder, name)
+                if os.access(path, os.R_OK) and os.path.isfile(path):
+                    return ("REL" if folder.startswith(".") else "lib"), path
+        raise Failure(f"CANNOT FIND FILE FOR:{name}")
+
+    def load_hal_file(self, entry):
+        words = entry.replace("\\", " ").split()
+        kind, path = self.find_hal_file(words[0])
+        print(f"Found file({kind}): {path}", flush=True)
+        if path.endswith(".tcl"):
+            status = self.run("haltcl", "-i", self.ini_path, path, *words[1:])
+        else:
+            status = self.run(*self.halcmd, "-i", self.ini_path, "-f", path)
+        if status and not self.options.keep_going:
+            raise Failure(f"{path}: failed (see the message above); it stands in {self.ini_path} as "
+                          f"[HAL]HALFILE = {entry}")
+
+    def start_applications(self):
+        delay = float(self.ini.get("APPLICATIONS", "DELAY", "0") or 0)
+        for value in self.ini.all("APPLICATIONS", "APP"):
+            if not value:
+                break
+            words = shlex.split(os.path.expanduser(value) if value.startswith("~/") else value)
+            name = words[0]
+            local = os.path.join(os.getcwd(), name)
+            path = name if name.startswith("/") else local if os.access(local, os.X_OK) and os.path.isfile(local) \
+                else shutil.which(name, path=self.env["PATH"])
+            if not path or not os.path.exists(path):
+                print(f"APP: Cannot find executable file for: <{name}>")
+                continue
+            if not os.access(path, os.X_OK):
+                print(f"APP: File not executable: <{path}>")
+                continue
+            print(f"APP: {name} found: <{path}>", flush=True)
+            line = f"exec {shlex.join([path] + words[1:])}"
+            subprocess.Popen(["sh", "-c", f"sleep {delay}; {line}" if delay else line], env=self.env,
+                             stdin=subprocess.DEVNULL)
+
+    def wait_ready(self):
+        """Waits until task has published its settings."""
+        begun = time.monotonic()
+
+        def ready():
+            try:
+                return float(self.output("halcmd", "getp", "ini.traj_max_velocity") or 0) != 0
+            except ValueError:
+                return False
+        if not clock.wait_until(ready, READY_WAIT_S):
+            print(f"ini.traj_max_velocity still 0.0 after {time.monotonic() - begun:.0f} seconds")
+
+    def watch(self):
+        """Remembers the programs without which the machine cannot go on."""
+        for pid in session_processes(self.id):
+            name = comm_of(pid)
+            if name == self.task[:15] or name.startswith("rtapi_app"):
+                self.watched[pid] = name
+
+    def run_display(self):
+        command = self.display_command()
+        self.display = clock.spawn(command, "display", env=self.env)
+        while True:
+            try:
+                status = self.display.wait(timeout=0.1)
+                return status_of(status)
+            except subprocess.TimeoutExpired:
+                pass
+            for pid, name in self.watched.items():
+                if state_of(pid) in "ZX":
+                    raise Failure(f"{name} (process {pid}) died unexpectedly; stopping everything")
+
+    def display_command(self):
+        program, extra = self.display_program, self.display_args + self.options.extra
+        if program in ("tkemc", "tklinuxcnc"):
+            return ["wish8.6", str(self.tree.tcl / "tklinuxcnc.tcl"), "-ini", self.ini_path] + extra
+        if program == "dummy":
+            print("DUMMY DISPLAY MODULE, press <ENTER> to continue.", flush=True)
+            return ["sh", "-c", "read line || :"]
+        if not shutil.which(program, path=self.env["PATH"]):
+            raise Failure(f"Can't execute DISPLAY program {' '.join([program] + extra)}")
+        if program == "linuxcncrsh":
+            return [program] + extra + ["--", "-ini", self.ini_path]
+        return [program, "-ini", self.ini_path] + extra
+
+    # -- stop ------------------------------------------------------------------------------
+
+    def clean(self, remove_lock=True):
+        """Ends everything of this session, also after a crash of any part of it."""
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        clock.leave()
+        print("Shutting down and cleaning up LinuxCNC...", flush=True)
+        if self.display and self.display.poll() is None:
+            end([self.display.pid])
+        shutdown = self.ini.get("HAL", "SHUTDOWN") if self.ini else None
+        running = session_processes(self.id)
+        host = [p for p in running if comm_of(p).startswith("rtapi_app")]
+        if shutdown and host:
+            print("Running HAL shutdown script")
+            self.try_run("halcmd", "-f", shutdown)
+        servers = [p for p in running if comm_of(p) in ("linuxcncsvr", "milltask", "motion-logger",
+                                                       getattr(self, "task", "milltask")[:15])]
+        end(servers)
+        if host:
+            self.try_run("halcmd", "stop")
+            self.try_run("halcmd", "unload", "all")
+        self.try_run(str(self.tree.realtime), "stop")
+        for pid in end(session_processes(self.id)):
+            print(f"Could not kill task {comm_of(pid)}, PID={pid}")
+        self.remove_nml_buffers()
+        if remove_lock:
+            try:
+                os.unlink(self.lock)
+            except FileNotFoundError:
+                pass
+
+    def try_run(self, *command, seconds=5.0):
+        """Runs a clean-up step; one that hangs is ended."""
+        try:
+            subprocess.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, timeout=seconds)
+        except (subprocess.TimeoutExpired, OSError):
+            pass
+
+    def remove_nml_buffers(self):
+        """Removes the shared memory of the NML buffers, tool data and motion block."""
+        import kerf_clock
+        keys = {101, 0x64}                     # motion block of a host that was killed
+        try:
+            with open(self.env.get("NMLFILE", str(self.tree.nml))) as f:
+                for line in f:
+                    word = line.split()
+                    if len(word) > 9 and word[0] == "B" and word[2] == "SHMEM":
+                        keys.add(int(word[9], 0))
+        except OSError:
+            pass
+        wanted = {kerf_clock.instance_key(k) & 0xFFFFFFFF for k in keys}
+        libc = ctypes.CDLL(None)
+        with open("/proc/sysvipc/shm") as f:
+            next(f)
+            for line in f:
+                word = line.split()
+                if int(word[0]) & 0xFFFFFFFF in wanted:
+                    libc.shmctl(int(word[1]), 0, None)      # 0 = IPC_RMID
+
+
+class Logs:
+    """Temporary logs when standard input is no terminal; kept in HOME after an error."""
+
+    def __init__(self, options):
+        self.active = not sys.stdin.isatty() and not options.test_mode
+        self.files = {}
+        if not self.active:
+            return
+        for kind, stream in (("print", 1), ("debug", 2)):
+            fd, path = tempfile.mkstemp(prefix=f"linuxcnc.{kind}.")
+            self.files[kind] = path
+            self.tee(fd, stream)
+
+    @staticmethod
+    def tee(fd, stream):
+        sys.stdout.flush()
+        os.dup2(fd, stream)
+        os.close(fd)
+
+    def finish(self, status, terminal):
+        if not self.active:
+            return
+        sys.stdout.flush()
+        sys.stderr.flush()
+        if status:
+            home = Path.home()
+            texts = []
+            for kind, path in self.files.items():
+                target = suffixed(str(home / f"linuxcnc_{kind}.txt"))
+                try:
+                    shutil.copyfile(path, target)
+                except OSError:
+                    target = path
+                texts.append(target)
+            with open(self.files["debug"]) as f:
+                os.write(terminal, f.read()[-4000:].encode())
+            os.write(terminal, (
+                "LinuxCNC terminated with an error.  You can find more information in the log:\n"
+                f"    {texts[1]}\nand\n    {texts[0]}\n"
+                "as well as in the output of the shell command 'dmesg' and in the terminal\n").encode())
+        for path in self.files.values():
+            try:
+                os.unlink(path)
+            except OSError:
+                pass
+
+
+def find_ini(options, tree):
+    """Absolute path of the INI file that the command line means."""
+    path = options.ini
+    if options.last:
+        path = last_config()
+        if not path:
+            raise Failure("Could not find a last used configuration: start with an INI file first")
+    if path is None:
+        picker = tree.tcl / "bin/pickconfig.tcl"
+        if not picker.exists() or not os.environ.get("DISPLAY"):
+            raise Failure("No INI file given: use `linuxcnc FILE.ini` (the picker needs a display)")
+        done = subprocess.run(["wish8.6", str(picker)], env=tree.environment(), stdout=subprocess.PIPE, text=True)
+        path = done.stdout.strip()
+        if not path:
+            sys.exit(0)
+        if path.endswith(".demo"):
+            subprocess.Popen([path], env=tree.environment(), cwd=os.path.dirname(path))
+            sys.exit(0)
+    full = path if path.startswith("/") else os.path.join(os.getcwd(), path)
+    if not os.path.isfile(full):
+        raise Failure(f"Could not find INI file '{path}'")
+    return os.path.normpath(full)
+
+
+def interrupted(*_):
+    raise KeyboardInterrupt
+
+
+def session_main(options, ini_path, tree, guard):
+    """The session process. Returns the exit status."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+    if os.getppid() != guard:
+        return 1
+    signal.signal(signal.SIGTERM, interrupted)
+    signal.signal(signal.SIGINT, interrupted)
+    clock.join("linuxcnc")
+    session = Session(options, ini_path, tree)
+    status = 0
+    try:
+        session.check_ini()
+        session.read_settings()
+        session.take_lock()
+        try:
+            status = session.start()
+        finally:
+            session.clean()
+    except Failure as e:
+        print(e, file=sys.stderr if e.status else sys.stdout)
+        status = e.status
+    except KeyboardInterrupt:
+        status = 0
+    clock.leave()
+    sys.stdout.flush()
+    return status
+
+
+def guarded(options, ini_path, tree):
+    """Runs the session in a child; cleans up when the child is killed."""
+    os.environ[SESSION + "_NEW"] = uuid.uuid4().hex
+    sys.stdout.flush()
+    guard = os.getpid()
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            status = session_main(options, ini_path, tree, guard)
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(status)
+
+    def forward(number, _frame):
+        try:
+            os.kill(child, number)
+        except OSError:
+            pass
+    signal.signal(signal.SIGTERM, forward)
+    signal.signal(signal.SIGINT, lambda *_: None if os.isatty(0) else forward(signal.SIGTERM, None))
+    _, how = os.waitpid(child, 0)
+    status = os.waitstatus_to_exitcode(how)
+    if status >= 0:
+        return status
+    print(f"The session process was ended by signal {-status}.", file=sys.stderr)
+    session = Session(options, ini_path, tree)
+    try:
+        session.ini = IniValues(ini_path, session.env)
+        session.read_settings()
+    except (IniError, Failure):
+        pass
+    if os.path.exists(session.lock):
+        session.clean()
+    return 1
+
+
+def main(argv):
+    options = Options(argv)
+    tree = Tree.find()
+    for name, value in tree.environment().items():
+        os.environ[name] = value
+    try:
+        ini_path = find_ini(options, tree)
+    except Failure as e:
+        print(e, file=sys.stderr)
+        return e.status
+    if not options.test_mode:
+        print(f"LINUXCNC - {tree.version()}", flush=True)
+    terminal = os.dup(2)
+    logs = Logs(options)
+    status = 1
+    try:
+        status = guarded(options, ini_path, tree)
+    finally:
+        logs.finish(status, terminal)
+    return status
