@@ -19,9 +19,9 @@ import time
 import uuid
 from pathlib import Path
 
-from . import clock
+from . import clock, instance
 from .inivalues import IniError, IniValues
-from .tree import Tree, suffixed
+from .tree import Tree
 
 USAGE = """linuxcnc: Run LinuxCNC
 
@@ -172,7 +172,7 @@ class Session:
         self.options, self.tree = options, tree
         self.ini_path = ini_path
         self.ini = None
-        self.lock = suffixed("/tmp/linuxcnc.lock")
+        self.lock = instance.suffixed("/tmp/linuxcnc.lock")
         self.id = os.environ.get(SESSION + "_NEW") or uuid.uuid4().hex
         self.env = tree.environment()
         self.env[SESSION] = self.id
@@ -496,7 +496,6 @@ class Session:
 
     def remove_nml_buffers(self):
         """Removes the shared memory of the NML buffers, tool data and motion block."""
-        import kerf_clock
         keys = {101, 0x64}                     # motion block of a host that was killed
         try:
             with open(self.env.get("NMLFILE", str(self.tree.nml))) as f:
@@ -506,7 +505,7 @@ class Session:
                         keys.add(int(word[9], 0))
         except OSError:
             pass
-        wanted = {kerf_clock.instance_key(k) & 0xFFFFFFFF for k in keys}
+        wanted = {instance.key(k) for k in keys}
         libc = ctypes.CDLL(None)
         with open("/proc/sysvipc/shm") as f:
             next(f)
@@ -544,7 +543,7 @@ class Logs:
             home = Path.home()
             texts = []
             for kind, path in self.files.items():
-                target = suffixed(str(home / f"linuxcnc_{kind}.txt"))
+                target = instance.suffixed(str(home / f"linuxcnc_{kind}.txt"))
                 try:
                     shutil.copyfile(path, target)
                 except OSError:

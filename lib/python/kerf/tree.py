@@ -76,8 +76,3 @@ class Tree:
                    LINUXCNC_HELP_DIR=str(self.home / "docs/help"), LINUXCNC_LANG_DIR=str(self.tcl / "msgs"))
         return env
 
-
-def suffixed(path):
-    """A machine-wide path (lock, log) of this instance: the default instance's has no suffix."""
-    instance = os.environ.get("KERF_INSTANCE", "")
-    return f"{path}.{instance}" if instance else path
