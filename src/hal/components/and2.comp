@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+component and2 "Two-input AND gate";
+pin in bit in0 "First input.";
+pin in bit in1 "Second input.";
+pin out bit out "TRUE while both inputs are TRUE.";
+function _ "Updates the output.";
+option period no;
+see_also "or2(9), xor2(9), not(9), logic(9), lut5(9)";
+license "GPL";
+author "Kerf developers";
+;;
+out = in0 && in1;

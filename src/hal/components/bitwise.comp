@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+component bitwise "Logic functions bit by bit";
+pin in unsigned in0 "First number.";
+pin in unsigned in1 "Second number.";
+pin out unsigned out_and "Bits set in both.";
+pin out unsigned out_or "Bits set in at least one.";
+pin out unsigned out_xor "Bits set in exactly one.";
+pin out unsigned out_nand "Complement of *out-and*.";
+pin out unsigned out_nor "Complement of *out-or*.";
+pin out unsigned out_xnor "Complement of *out-xor*.";
+function _ "Updates the outputs.";
+option period no;
+see_also "bitmerge(9), bitslice(9)";
+license "GPL";
+author "Kerf developers";
+;;
+rtapi_u32 a = in0, b = in1;
+out_and = a & b;
+out_or = a | b;
+out_xor = a ^ b;
+out_nand = ~(a & b);
+out_nor = ~(a | b);
+out_xnor = ~(a ^ b);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+component clarkeinv "Inverse Clarke transform with rotation";
+pin in float x "Component along the first phase.";
+pin in float y "Component at a right angle to it.";
+pin in float h "Common (homopolar) component.";
+pin in float theta "Rotation in turns, applied before the transform.";
+pin out float a "First phase.";
+pin out float b "Second phase.";
+pin out float c "Third phase.";
+function _ "Updates the outputs.";
+option period no;
+see_also "clarke2(9), clarke3(9)";
+license "GPL";
+author "Kerf developers";
+include <rtapi_math.h>;
+;;
+const double k2 = 0.866025403784439, k3 = 0.707106781186547;
+double angle = theta * 6.283185308;
+double cosine = cos(angle), sine = sin(angle);
+double xr = x * cosine - y * sine, yr = x * sine + y * cosine, common = k3 * h;
+a = xr + common;
+b = -0.5 * xr + k2 * yr + common;
+c = -0.5 * xr - k2 * yr + common;
