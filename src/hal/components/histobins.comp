@@ -22,7 +22,7 @@ pin out u32 nsamples "Number of samples.";
 pin out float variance "Variance of the samples.";
 pin out float mean "Mean of the samples.";
 pin out s32 availablebins = 200 "Greatest number of bins.";
-option data struct histogram;
+option data histogram;
 function _ "Takes a sample.";
 option period no;
 see_also "histobinstream(9), latencybins(9)";
@@ -31,16 +31,16 @@ author "Kerf developers";
 ;;
 #define BINS 200
 
-struct histogram {
+typedef struct {
     rtapi_u64 bin[BINS + 1];          /* one more: a sample at the upper end */
     rtapi_u32 bins;                   /* geometry of what is counted */
     double width, low, high;
     double m2, sum, sum2;
     int running;
-};
+} histogram;
 
 FUNCTION(_) {
-    struct histogram *h = &data;
+    histogram *h = &data;
     int geometry, i;
     double x = pintype == 1 ? input_s32 : pintype == 2 ? input_u32 : pintype == 3 ? input_bit : input;
     check = index;

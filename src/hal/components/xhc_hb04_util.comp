@@ -26,7 +26,7 @@ pin in float coef3 = 1.0 "Share of the new value in each cycle, output 3.";
 pin in float divide_by_k_in "Value to divide.";
 pin out float divide_by_k_out "divide-by-k-in / k; 1e99 if k is 0.";
 pin in float k = 1.0 "Divisor.";
-variable double value[4];
+variable double filtered[4];
 variable int was;
 function _ "Updates all outputs.";
 option period no;
@@ -44,10 +44,10 @@ static rtapi_s32 smooth(double *value, double in, double coef, double scale) {
 }
 FUNCTION(_) {
     divide_by_k_out = k == 0 ? 1e99 : divide_by_k_in / k;
-    out0 = smooth(&value[0], in0, coef0, scale0);
-    out1 = smooth(&value[1], in1, coef1, scale1);
-    out2 = smooth(&value[2], in2, coef2, scale2);
-    out3 = smooth(&value[3], in3, coef3, scale3);
+    out0 = smooth(&filtered[0], in0, coef0, scale0);
+    out1 = smooth(&filtered[1], in1, coef1, scale1);
+    out2 = smooth(&filtered[2], in2, coef2, scale2);
+    out3 = smooth(&filtered[3], in3, coef3, scale3);
     if((start_or_pause != 0) != was) {
         was = start_or_pause != 0;
         if(was) {
