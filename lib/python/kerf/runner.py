@@ -8,6 +8,7 @@ its limits (component limitcheck, every servo cycle). Units: machine units and s
 """
 
 import argparse
+import array
 import json
 import math
 import os
@@ -119,14 +120,16 @@ class Machine:
 class Measurement:
     """limitcheck on every joint and samples of the path; units as in the INI file."""
 
-    def __init__(self, machine):
+    def __init__(self, machine, samples=None):
+        """samples: file for the commands of every joint in every servo cycle (rows of doubles)."""
         import hal
         self.hal, self.machine = hal, machine
+        self.samples = open(samples, "wb") if samples else None
         ini, n = machine.ini, machine.joints
         self.axes = [a for a in "XYZABCUVW" if a in (ini.get("TRAJ", "COORDINATES") or "XYZ").upper()]
         lines = [f"loadrt limitcheck count={n}",
                  f"loadrt threads name1=measure-thread period1={round(SAMPLE_S * 1e9)}",
-                 f"loadrt sampler depth=4096 cfg={'f' * len(self.axes)}s"]
+                 f"loadrt sampler depth=4096,16384 cfg={'f' * len(self.axes)}s,{'f' * n}"]
         for j in range(n):
             section = f"JOINT_{j}"
             lines += [f"addf limitcheck.{j} servo-thread",
@@ -135,11 +138,13 @@ class Measurement:
                       f"setp limitcheck.{j}.max-jerk {float(ini.get(section, 'MAX_JERK', '0'))}",
                       f"setp limitcheck.{j}.min-pos {float(ini.get(section, 'MIN_LIMIT', '-1e99'))}",
                       f"setp limitcheck.{j}.max-pos {float(ini.get(section, 'MAX_LIMIT', '1e99'))}"]
-            lines.append(self.link(f"joint.{j}.pos-cmd", f"limitcheck.{j}.pos-cmd"))
+            lines.append(self.link(f"joint.{j}.pos-cmd", f"limitcheck.{j}.pos-cmd sampler.1.pin.{j}"))
         for i, axis in enumerate(self.axes):
             lines.append(self.link(f"axis.{axis.lower()}.pos-cmd", f"sampler.0.pin.{i}"))
         lines += [self.link("motion.motion-type", f"sampler.0.pin.{len(self.axes)}"),
                   "addf sampler.0 measure-thread"]
+        if self.samples:
+            lines.append("addf sampler.1 servo-thread")
         with tempfile.NamedTemporaryFile("w", suffix=".hal") as f:
             f.write("\n".join(lines) + "\n")
             f.flush()
@@ -149,11 +154,15 @@ class Measurement:
         self.component = hal.component(f"kerf-run-{os.getpid()}")
         self.component.ready()
         self.stream = hal.stream(self.component, hal.sampler_base)
+        self.commands = hal.stream(self.component, hal.sampler_base + 1) if self.samples else None
         self.path = []
         self.distance = {"feed": 0.0, "rapid": 0.0}
         self.read()
         self.path.clear()
         self.distance = dict.fromkeys(self.distance, 0.0)
+        if self.samples:
+            self.samples.truncate(0)
+            self.samples.seek(0)
 
     def link(self, source, target):
         """A net command that also works when the source is in a net already."""
@@ -167,6 +176,11 @@ class Measurement:
 
     def read(self):
         """Takes in the samples that have come since the last call."""
+        while self.commands is not None:
+            row = self.commands.read()
+            if row is None:
+                break
+            array.array("d", row).tofile(self.samples)
         last = self.path[-1] if self.path else None
         while True:
             sample = self.stream.read()
@@ -241,7 +255,7 @@ def run_display(argv):
         machine = Machine(ini_path)
         machine.poll()
         machine.prepare()
-        measure = Measurement(machine)
+        measure = Measurement(machine, order.get("samples"))
         with open(program, "rb") as f:
             progress = Progress(sum(1 for _ in f))
         begin, wall = clock.now(), time.monotonic()
@@ -305,6 +319,7 @@ def main(argv):
     p.add_argument("--ini", default=str(tree.configs / "sim/mill/mill.ini"), help="machine (default: sim/mill)")
     p.add_argument("--realtime", action="store_true", help="at real speed instead of in virtual time")
     p.add_argument("--picture", help="PNG file of the tool path (default: beside the current folder's name)")
+    p.add_argument("--samples", help="write every joint's command of every servo cycle to this file (doubles)")
     p.add_argument("--json", help="also write the report to this file")
     o = p.parse_args(argv)
     program = os.path.abspath(o.program)
@@ -328,7 +343,8 @@ def main(argv):
             print(e, file=sys.stderr)
             return 1
         env.update(KERF_CLOCK="real" if o.realtime else os.environ.get("KERF_CLOCK", "virtual"),
-                   KERF_RUN=json.dumps({"program": program, "report": str(report_file)}))
+                   KERF_RUN=json.dumps({"program": program, "report": str(report_file),
+                                      "samples": os.path.abspath(o.samples) if o.samples else None}))
         env.setdefault("KERF_INSTANCE", f"run{os.getpid()}")
         log = Path(scratch) / "log"
         with open(log, "w") as out:
