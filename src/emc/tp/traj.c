@@ -1,0 +1,710 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * traj.c - look-ahead and execution. See traj.h for the invariants, docs/planner.md for proofs.
+ */
+#include "traj.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CUT_BUDGET 32      /* cells made in a cycle */
+#define SWEEP_BUDGET 512   /* cells looked at by the envelope in a cycle */
+#define PORTIONS 64        /* pieces of constant acceleration in a cycle */
+#define SCAN_LIMIT 64      /* junctions whose rounding may cover one point, each side */
+
+#define CELL_MOVES 64      /* moves that one cell may span; less than TRAJ_HISTORY */
+
+#define ARC_CAP 0.97       /* share of acceleration that a curve at constant speed may use on arcs, */
+#define ROUND_CAP 0.995    /* and in roundings: the rest leaves authority to brake */
+#define ARC_STEP 0.1745    /* rad: longest cell on an arc of up to one turn */
+#define KINK_SHARE 0.5     /* of one cycle's acceleration, for the velocity step of a kink */
+#define SMOOTH_SHARE 1e-4  /* a smaller step counts as none */
+#define GUARD_TIME 0.02    /* s: the tail is made final so long before it limits the speed */
+
+static struct traj_cell *cell_at(struct traj *tj, uint32_t index)
+{
+    return &tj->cells[index & (TRAJ_CELLS - 1)];
+}
+
+void traj_init(struct traj *tj, double dt)
+{
+    memset(tj, 0, sizeof *tj);
+    tj->dt = dt;
+    tj->dir = 1;
+    tj->drive.scale = 1;
+    tj->drive.max_scale = 1;
+    tj->drive.vlimit = 1e99;
+    tj->sweep_scale = 1;
+    tj->sweep_vlimit = 1e99;
+}
+
+void traj_reset(struct traj *tj, const double p[PATH_AXES])
+{
+    tj->first = tj->cur = tj->end = 0;
+    tj->cell_first = tj->cell_end = tj->cell = 0;
+    tj->s_final = tj->cut_s = 0;
+    tj->tail_forced = 0;
+    tj->cut_seg = tj->cut_join = 0;
+    tj->sweep = 0;
+    tj->sweeping = 0;
+    tj->swept_end = 0;
+    tj->s = tj->v = tj->acc = 0;
+    tj->dir = 1;
+    tj->waiting = 0;
+    memcpy(tj->pos, p, sizeof tj->pos);
+}
+
+/* ---- junctions ------------------------------------------------------------ */
+
+/* Speed along s that the rounding of a junction of this move is made for. */
+static double planned_speed(const struct traj *tj, const struct traj_seg *g)
+{
+    double v = g->vmax;
+    if (g->follow == TRAJ_FEED) v = fmin(g->feed * fmax(tj->drive.max_scale, 1), v);
+    return v * g->stretch;
+}
+
+/* Limit of acceleration of an axis; the move's own where the axis has none. */
+static double axis_acc(const struct traj *tj, int axis, const struct traj_seg *g)
+{
+    return tj->lim.a[axis] > 0 ? tj->lim.a[axis] : g->acc / g->stretch;
+}
+
+/* Widest rounding that a move's end may ask for, whatever follows. */
+static double tail_reserve(const struct traj *tj, const struct traj_seg *g)
+{
+    double half = g->prim.len / 2, v, a = 0;
+
+    if (g->end == TRAJ_STOP) return 0;
+    if (!(g->tol > 0)) return half;
+    v = planned_speed(tj, g);
+    for (int i = 0; i < PATH_AXES; i++) {
+        double ai = axis_acc(tj, i, g);
+        if (a == 0 || ai < a) a = ai;
+    }
+    return fmin(half, 2 * v * sqrt(8 * g->tol / a));
+}
+
+/* The share of P left after motmod's cubic interpolator, which moves a sample by A T^2 / 6. */
+static double tolerance_left(const struct traj *tj, double tol, const struct traj_seg *g)
+{
+    double a = 0;
+    for (int i = 0; i < PATH_AXES; i++) a = fmax(a, axis_acc(tj, i, g));
+    return fmax(tol / 2, tol - a * tj->dt * tj->dt / 6 - 1e-9);
+}
+
+static void join_rest(struct traj *tj, struct traj_seg *g)
+{
+    g->join = JOIN_REST;
+    g->cut = 1;
+    g->w = g->zone = 0;
+    tj->n_rest++;
+}
+
+/* A corner that is passed exactly. room: path before it that is not final yet. */
+static void join_kink(struct traj *tj, const struct traj_seg *prev, struct traj_seg *g, double room)
+{
+    double v = 1e30, ratio = 0;
+
+    for (int i = 0; i < PATH_AXES; i++) {
+        double step = fabs(g->du[i]);
+        if (step > 0) v = fmin(v, KINK_SHARE * axis_acc(tj, i, g) * tj->dt / step);
+        ratio = fmax(ratio, step);
+    }
+    double zone = fmin(2 * v * tj->dt, fmin(prev->prim.len, g->prim.len) / 2);
+    if (ratio > 0.1 || zone > room) {
+        join_rest(tj, g);
+        return;
+    }
+    v = fmin(v, zone / (2 * tj->dt));
+    g->join = JOIN_KINK;
+    g->zone = zone;
+    g->kink_b = v * v;
+    g->cut = 1;
+}
+
+/* Decides how move `index` joins the one before; fills the junction. */
+static void make_join(struct traj *tj, uint32_t index, int rest_before)
+{
+    struct traj_seg *g = traj_seg(tj, index);
+    const struct traj_seg *prev = traj_cseg(tj, index - 1);
+    struct path_jet before, after;
+    double speed, biggest = 0, w, needed = 0, p, room;
+
+    path_jet_at(&prev->prim, prev->prim.len, &before);
+    path_jet_at(&g->prim, 0, &after);
+    for (int i = 0; i < PATH_AXES; i++) {
+        g->du[i] = after.d1[i] - before.d1[i];
+        g->dk[i] = after.d2[i] - before.d2[i];
+    }
+    g->cut = prev->prim.kind != PATH_LINE || g->prim.kind != PATH_LINE || prev->feed != g->feed ||
+             prev->vmax != g->vmax || prev->acc != g->acc || prev->follow != g->follow ||
+             prev->prim.metric != g->prim.metric || prev->stretch != g->stretch;
+    if (rest_before || prev->end == TRAJ_STOP) {
+        join_rest(tj, g);
+        return;
+    }
+    speed = fmax(planned_speed(tj, prev), planned_speed(tj, g));
+    for (int i = 0; i < PATH_AXES; i++)
+        biggest = fmax(biggest, fabs(g->du[i]) * speed / (axis_acc(tj, i, g) * tj->dt));
+    room = g->s0 - tj->cut_s;
+    if (biggest < SMOOTH_SHARE) {
+        g->join = JOIN_SMOOTH;
+        return;
+    }
+    if (prev->end == TRAJ_EXACT) {
+        join_kink(tj, prev, g, room);
+        return;
+    }
+    /* Half width: by tolerance, by the neighbours' halves, and no wider than the speed asks for. */
+    w = fmin(fmin(prev->prim.len, g->prim.len) / 2, room);
+    p = prev->tol > 0 && g->tol > 0 ? fmin(prev->tol, g->tol) : fmax(prev->tol, g->tol);
+    if (p > 0) w = fmin(w, tolerance_left(tj, p, g) / (PATH_ROUND_PEAK * path_max_norm(g->du)));
+    for (int i = 0; i < PATH_AXES; i++) {
+        double a = fmin(axis_acc(tj, i, g), axis_acc(tj, i, prev));
+        needed = fmax(needed, 2 * PATH_ROUND_CURVE * fabs(g->du[i]) * speed * speed / a);
+    }
+    w = fmin(w, needed);
+    if (w < 1e-7) {
+        join_kink(tj, prev, g, room);
+        return;
+    }
+    g->join = JOIN_ROUND;
+    g->w = w;
+}
+
+static void update_final(struct traj *tj)
+{
+    const struct traj_seg *last = traj_cseg(tj, tj->end - 1);
+    double s = last->s1 - tail_reserve(tj, last);
+    if (tj->tail_forced || s > last->s1) s = last->s1;
+    if (s > tj->s_final) tj->s_final = s;
+}
+
+int64_t traj_append(struct traj *tj, const struct traj_move *move)
+{
+    if (tj->end - tj->first >= TRAJ_SEGS - 1) return -1;
+    uint32_t index = tj->end;
+    struct traj_seg *g = traj_seg(tj, index);
+
+    g->prim = move->prim;
+    g->s0 = index == tj->first ? tj->s : traj_cseg(tj, index - 1)->s1;
+    g->s1 = g->s0 + move->prim.len;
+    g->feed = move->feed;
+    g->vmax = move->vmax;
+    g->stretch = move->prim.len / fmax(move->prim.feed_len, 1e-300);
+    g->acc = move->acc * g->stretch;
+    g->jerk = move->jerk * g->stretch;
+    g->tol = move->tol;
+    g->end = move->end;
+    g->follow = move->follow;
+    g->released = 0;
+    g->w = g->zone = g->kink_b = 0;
+    if (index == tj->first) {
+        memset(g->du, 0, sizeof g->du);
+        memset(g->dk, 0, sizeof g->dk);
+        join_rest(tj, g);
+    } else {
+        make_join(tj, index, move->rest_before);
+    }
+    tj->end++;
+    tj->tail_forced = 0;
+    update_final(tj);
+    return index;
+}
+
+/* ---- rounded path ----------------------------------------------------------- */
+
+/* Largest distance from the junction at which its correction or zone acts. */
+static double reach(const struct traj_seg *g)
+{
+    return g->w > g->zone ? g->w : g->zone;
+}
+
+/* The move that contains s, searched from `from`. */
+static uint32_t seg_of(const struct traj *tj, uint32_t from, double s)
+{
+    while (from != tj->first && s < traj_cseg(tj, from)->s0) from--;
+    while (from + 1 != tj->end && s >= traj_cseg(tj, from)->s1) from++;
+    return from;
+}
+
+static void add_round(const struct traj_seg *g, double s, int side, struct path_jet *jet)
+{
+    double k[4], w = g->w;
+
+    path_round((s - g->s0) / w, side, k);
+    for (int i = 0; i < PATH_AXES; i++) {
+        jet->p[i] += g->du[i] * w * k[0];
+        jet->d1[i] += g->du[i] * k[1];
+        jet->d2[i] += g->du[i] * (k[2] / w);
+        jet->d3[i] += g->du[i] * (k[3] / (w * w));
+    }
+}
+
+/* Position and derivatives of the rounded path at s in move g. */
+static void rounded_jet(const struct traj *tj, uint32_t index, double s, struct path_jet *jet)
+{
+    const struct traj_seg *g = traj_cseg(tj, index);
+    uint32_t j;
+    int n;
+
+    path_jet_at(&g->prim, s - g->s0, jet);
+    for (j = index, n = 0; n < SCAN_LIMIT; j--, n++) {
+        const struct traj_seg *q = traj_cseg(tj, j);
+        if (!(s - q->s0 < reach(q))) break;
+        if (q->w > 0) add_round(q, s, 1, jet);
+        if (j == tj->first) break;
+    }
+    for (j = index + 1, n = 0; j != tj->end && n < SCAN_LIMIT; j++, n++) {
+        const struct traj_seg *q = traj_cseg(tj, j);
+        if (!(q->s0 - s < reach(q))) break;
+        if (q->w > 0) add_round(q, s, -1, jet);
+    }
+}
+
+void traj_pose(const struct traj *tj, double s, double p[PATH_AXES])
+{
+    const struct traj_seg *g;
+    double k[4];
+    uint32_t index, j;
+    int n;
+
+    if (tj->end == tj->first) {
+        memcpy(p, tj->pos, sizeof tj->pos);
+        return;
+    }
+    index = seg_of(tj, tj->cur, s);
+    g = traj_cseg(tj, index);
+    if (s >= g->s1) memcpy(p, g->prim.end, sizeof g->prim.end);
+    else path_at(&g->prim, s - g->s0, p);
+    for (j = index, n = 0; n < SCAN_LIMIT; j--, n++) {
+        const struct traj_seg *q = traj_cseg(tj, j);
+        if (!(s - q->s0 < reach(q))) break;
+        if (q->w > 0) {
+            path_round((s - q->s0) / q->w, 1, k);
+            for (int i = 0; i < PATH_AXES; i++) p[i] += q->du[i] * q->w * k[0];
+        }
+        if (j == tj->first) break;
+    }
+    for (j = index + 1, n = 0; j != tj->end && n < SCAN_LIMIT; j++, n++) {
+        const struct traj_seg *q = traj_cseg(tj, j);
+        if (!(q->s0 - s < reach(q))) break;
+        if (q->w > 0) {
+            path_round((s - q->s0) / q->w, -1, k);
+            for (int i = 0; i < PATH_AXES; i++) p[i] += q->du[i] * q->w * k[0];
+        }
+    }
+}
+
+/* ---- cells ------------------------------------------------------------------- */
+
+/* Largest |f| on a cell from its values at both ends and the middle, f being nearly quadratic. */
+static double bound3(double a, double m, double c)
+{
+    double top = fmax(fabs(a), fmax(fabs(m), fabs(c)));
+    return top + fabs(a - 2 * m + c) / 8;
+}
+
+/* Bounds of motion on the cell from the axes' limits and the path's derivatives. */
+static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int arc, double share, double cap)
+{
+    struct path_jet ja, jm, jc;
+    const struct traj_seg *g = traj_cseg(tj, c->seg);
+    double eps = c->len * 1e-7, b[3], f[3];
+    double q1[PATH_AXES], q2[PATH_AXES], acc[PATH_AXES];
+    int group = g->prim.metric == PATH_XYZ ? PATH_X : g->prim.metric == PATH_UVW ? PATH_U : PATH_A;
+    double ma = 0, mm = 0, mc = 0;
+
+    rounded_jet(tj, c->seg, c->s0 + eps, &ja);
+    rounded_jet(tj, seg_of(tj, c->seg, c->s0 + c->len / 2), c->s0 + c->len / 2, &jm);
+    rounded_jet(tj, seg_of(tj, c->seg, c->s0 + c->len - eps), c->s0 + c->len - eps, &jc);
+
+    for (int i = 0; i < PATH_AXES; i++) {
+        double reserve = arc && !rounded ? ARC_CAP : ROUND_CAP;
+        q1[i] = bound3(ja.d1[i], jm.d1[i], jc.d1[i]);
+        q2[i] = bound3(ja.d2[i], jm.d2[i], jc.d2[i]);
+        acc[i] = share * axis_acc(tj, i, g);
+        if (q1[i] > 1e-12 && tj->lim.v[i] > 0) cap = fmin(cap, tj->lim.v[i] * tj->lim.v[i] / (q1[i] * q1[i]));
+        if (q2[i] > 0) cap = fmin(cap, reserve * acc[i] / q2[i]);
+    }
+    for (int i = group; i < group + 3; i++) {
+        ma += ja.d1[i] * ja.d1[i];
+        mm += jm.d1[i] * jm.d1[i];
+        mc += jc.d1[i] * jc.d1[i];
+    }
+    c->metric = bound3(sqrt(ma), sqrt(mm), sqrt(mc));
+    cap = fmin(cap, 1e12);
+    c->cap = cap;
+
+    /* |u| <= min_i (A_i - q2_i b) / q1_i is concave in b: two chords over [0, cap] bound it from inside. */
+    for (int n = 0; n < 3; n++) {
+        b[n] = cap * n / 2;
+        f[n] = share * g->acc;
+        for (int i = 0; i < PATH_AXES; i++)
+            if (q1[i] > 1e-12) f[n] = fmin(f[n], (acc[i] - q2[i] * b[n]) / q1[i]);
+        if (f[n] < 0) f[n] = 0;
+    }
+    for (int n = 0; n < 2; n++) {
+        c->c2[n] = fmax(0, (f[n] - f[n + 1]) / (b[n + 1] - b[n]));
+        c->c1[n] = f[n] + c->c2[n] * b[n];
+    }
+}
+
+/* Makes the next cell of the final path. 0: nothing to do. */
+static int cut_cell(struct traj *tj)
+{
+    double a = tj->cut_s, tiny = 1e-12 * (1 + a), step = 1e30, end, share = 1, cap = 1e12;
+    int rounded = 0, arc;
+    uint32_t j;
+
+    if (tj->s_final - a <= tiny || tj->cell_end - tj->cell_first >= TRAJ_CELLS - 1) return 0;
+    while (tj->cut_seg + 1 != tj->end && a >= traj_seg(tj, tj->cut_seg)->s1 - tiny) tj->cut_seg++;
+    const struct traj_seg *g = traj_seg(tj, tj->cut_seg);
+    end = tj->s_final;
+
+    /* Roundings and zones: begin and end cells at their edges, cut them in parts. */
+    while (tj->cut_join != tj->end) {
+        const struct traj_seg *q = traj_seg(tj, tj->cut_join);
+        if (q->s0 + reach(q) > a + tiny) break;
+        tj->cut_join++;
+    }
+    for (j = tj->cut_join; j != tj->end; j++) {
+        const struct traj_seg *q = traj_seg(tj, j);
+        double lo = q->s0 - reach(q), hi = q->s0 + reach(q);
+        if (reach(q) <= 0) continue;
+        if (lo > a + tiny) {
+            end = fmin(end, lo);
+            break;
+        }
+        if (hi <= a + tiny) continue;
+        end = fmin(end, hi);
+        if (q->w > 0) {
+            rounded = 1;
+            step = fmin(step, q->w / 4);
+        } else {
+            share = KINK_SHARE;
+            cap = fmin(cap, q->kink_b);
+        }
+    }
+    /* Ends of moves where the bounds or the feed change. */
+    for (j = tj->cut_seg + 1; j != tj->end; j++) {
+        const struct traj_seg *q = traj_seg(tj, j);
+        if (q->s0 >= end) break;
+        if (q->cut || j - tj->cut_seg >= CELL_MOVES) {
+            end = fmin(end, q->s0);
+            break;
+        }
+    }
+    arc = g->prim.kind == PATH_ARC;
+    if (arc) {
+        double angle = fmax(ARC_STEP, g->prim.angle / 64);
+        step = fmin(step, angle * g->prim.len / g->prim.angle);
+    }
+    if (end - a > 1.25 * step) end = a + step;
+
+    struct traj_cell *c = cell_at(tj, tj->cell_end);
+    c->s0 = a;
+    c->len = end - a;
+    c->seg = tj->cut_seg;
+    c->rest = g->join == JOIN_REST && a <= g->s0 + tiny;
+    c->k = 0;
+    c->kr = 0;
+    bound_cell(tj, c, rounded, arc, share, cap);
+    tj->cut_s = end;
+    tj->cell_end++;
+    return 1;
+}
+
+/* ---- envelope ---------------------------------------------------------------- */
+
+/* Cap of b by feed, override, limit of speed. */
+static double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit)
+{
+    const struct traj_seg *g = traj_cseg(tj, c->seg);
+    double v = g->vmax;
+
+    if (g->follow == TRAJ_FEED) v = fmin(v, g->feed * fmin(scale, fmax(tj->drive.max_scale, 1)));
+    if (g->follow != TRAJ_SYNC_POSITION && g->prim.metric != PATH_ABC) v = fmin(v, vlimit);
+    if (c->metric < 1e-12) return 1e30;
+    v /= c->metric;
+    return v * v;
+}
+
+/* Highest b at distance d before a boundary that must be passed with at most b_end, or at
+ * distance d after one passed with b_end: the bounds are the same for both signs of u. */
+static double ramp_b(const struct traj_cell *c, double b_end, double d)
+{
+    double p = (b_end + 2 * d * c->c1[0]) / (1 + 2 * d * c->c2[0]);
+    double q = (b_end + 2 * d * c->c1[1]) / (1 + 2 * d * c->c2[1]);
+    return p < q ? p : q;
+}
+
+static void sweep_envelope(struct traj *tj)
+{
+    double scale = tj->drive.scale;
+
+    /* A hold aims at rest by itself; the envelope stays. */
+    if (scale < 1e-9) scale = tj->sweep_scale;
+    if (!tj->sweeping) {
+        int changed = scale != tj->sweep_scale || tj->drive.vlimit != tj->sweep_vlimit;
+        if (!changed && tj->swept_end == tj->cell_end) return;
+        if (tj->cell_end == tj->cell_first) return;
+        tj->sweeping = 1;
+        tj->sweep_full = changed;
+        tj->sweep_scale = scale;
+        tj->sweep_vlimit = tj->drive.vlimit;
+        tj->swept_end = tj->cell_end;
+        tj->sweep = tj->cell_end - 1;
+    }
+    for (int n = 0; n < SWEEP_BUDGET; n++) {
+        struct traj_cell *c = cell_at(tj, tj->sweep);
+        double k = 0;
+        if (!c->rest) {
+            double ahead = tj->sweep + 1 == tj->swept_end ? 0 : cell_at(tj, tj->sweep + 1)->k;
+            k = fmin(ramp_b(c, ahead, c->len), c->cap);
+            k = fmin(k, feed_b(tj, c, tj->sweep_scale, tj->sweep_vlimit));
+        }
+        int same = fabs(k - c->k) <= 1e-12 * k;
+        c->k = k;
+        if ((same && !tj->sweep_full && tj->sweep + 1 != tj->swept_end) || tj->sweep == tj->cell ||
+            tj->sweep == tj->cell_first) {
+            tj->sweeping = 0;
+            return;
+        }
+        tj->sweep--;
+    }
+}
+
+/* ---- execution ---------------------------------------------------------------- */
+
+static double clamp_b(const struct traj_cell *c, double b)
+{
+    return b < c->cap ? b : c->cap;
+}
+
+/* Acceleration allowed at b. */
+static double allowed(const struct traj_cell *c, double b)
+{
+    double p = c->c1[0] - c->c2[0] * b, q = c->c1[1] - c->c2[1] * b;
+    double f = p < q ? p : q;
+    return f > 0 ? f : 0;
+}
+
+/* Highest speed after accelerating for t from v: v' = v + t (c1 - c2 v'^2). */
+static double accelerated(const struct traj_cell *c, double v, double t)
+{
+    double best = 1e30;
+    for (int n = 0; n < 2; n++) {
+        double top = v + c->c1[n] * t, k = c->c2[n] * t;
+        double r = 2 * top / (1 + sqrt(1 + 4 * k * top));
+        if (r < best) best = r;
+    }
+    return best;
+}
+
+/* Highest speed in [lo, hi] after t such that the boundary at distance d can still be met with b_end. */
+static double braked(const struct traj_cell *c, double b_end, double d, double v, double t, double lo, double hi)
+{
+    if ((v + hi) * t / 2 > d) hi = 2 * d / t - v;
+    if (hi <= lo) return lo;
+    if (hi * hi <= clamp_b(c, ramp_b(c, b_end, d - (v + hi) * t / 2))) return hi;
+    for (int n = 0; n < 24; n++) {
+        double mid = (lo + hi) / 2;
+        if (mid * mid <= clamp_b(c, ramp_b(c, b_end, d - (v + mid) * t / 2))) lo = mid;
+        else hi = mid;
+    }
+    return lo;
+}
+
+/* Goes on to the next cell in the direction of motion. 0: motion ends here for this cycle. */
+static int next_cell(struct traj *tj)
+{
+    if (tj->dir > 0) {
+        uint32_t next = tj->cell + 1;
+        if (next == tj->cell_end) {
+            tj->v = 0;
+            return 0;
+        }
+        if (cell_at(tj, next)->rest) {
+            uint32_t index = cell_at(tj, next)->seg;
+            tj->v = 0;
+            if (!traj_seg(tj, index)->released) {
+                tj->waiting = 1;
+                tj->wait_seg = index;
+                return 0;
+            }
+        }
+        tj->cell = next;
+        tj->s = cell_at(tj, next)->s0;
+    } else {
+        if (tj->cell == tj->cell_first) {
+            tj->v = 0;
+            return 0;
+        }
+        int rest = cell_at(tj, tj->cell)->rest;
+        tj->cell--;
+        if (rest) {
+            tj->v = 0;
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Speed aimed at in a cell. */
+static double target_speed(const struct traj *tj, const struct traj_cell *c)
+{
+    const struct traj_seg *g = traj_cseg(tj, c->seg);
+    double b;
+
+    if (tj->drive.hold) return 0;
+    b = feed_b(tj, c, tj->drive.scale, tj->drive.vlimit);
+    if (g->follow != TRAJ_FEED) {
+        double v = tj->drive.sync_speed * (g->follow == TRAJ_SYNC_SPEED ? tj->drive.scale : 1);
+        v = c->metric > 1e-12 ? v / c->metric : 0;
+        b = fmin(b, v * v);
+    }
+    return sqrt(clamp_b(c, b));
+}
+
+static void step_path(struct traj *tj)
+{
+    double left = tj->dt, v_before = tj->v;
+
+    for (int n = 0; n < PORTIONS && left > 1e-9 * tj->dt; n++) {
+        struct traj_cell *c = cell_at(tj, tj->cell);
+        double end = tj->dir > 0 ? c->s0 + c->len : c->s0;
+        double d = tj->dir > 0 ? end - tj->s : tj->s - end;
+        tj->n_portions++;
+        if (d <= 0) {
+            if (!next_cell(tj)) break;
+            continue;
+        }
+        double b_end = tj->dir > 0 ? (tj->cell + 1 == tj->cell_end ? 0 : cell_at(tj, tj->cell + 1)->k) : c->kr;
+        double v = tj->v, b = v * v, vt = target_speed(tj, c), ve2, t = left, x;
+        if (vt <= 0 && v <= 0) break;
+        double brake = allowed(c, b), low2 = fmax(0, b - 2 * brake * d);
+
+        if (v > vt) { /* too fast: brake to vt */
+            double tv = brake > 0 ? (v - vt) / brake : 1e30;
+            double xv = (v + vt) / 2 * tv;
+            if (tv <= left && xv < d) {
+                tj->s += tj->dir * xv;
+                tj->v = vt;
+                left -= tv;
+                continue;
+            }
+            ve2 = xv < d ? -1 : low2;
+        } else {
+            ve2 = fmax(low2, fmin(fmin(ramp_b(c, b, d), vt * vt), b_end));
+        }
+        if (ve2 >= 0) { /* reach the boundary within the cycle? */
+            double ve = sqrt(ve2), te = v + ve > 0 ? 2 * d / (v + ve) : 1e30;
+            if (te <= left) {
+                tj->s = end;
+                tj->v = ve;
+                left -= te;
+                continue;
+            }
+        }
+        double lo = v - brake * t, hi;
+        if (lo < 0) lo = 0;
+        hi = v > vt ? fmax(lo, vt) : fmin(accelerated(c, v, t), vt);
+        double v1 = braked(c, b_end, d, v, t, lo, hi);
+        x = (v + v1) * t / 2;
+        if (v1 <= 0 && brake > 0 && v / brake < t) x = b / (2 * brake); /* comes to rest within t */
+        if (x > d) x = d;
+        tj->s += tj->dir * x;
+        tj->v = v1;
+        left = 0;
+    }
+    tj->acc = (tj->v - v_before) / tj->dt;
+}
+
+/* Distance in which the tail must be made final: stopping distance and some time in hand. */
+static double tail_guard(const struct traj *tj)
+{
+    const struct traj_seg *g = traj_cseg(tj, tj->cur);
+    double v = tj->v + g->acc * 10 * tj->dt;
+    return 1.5 * v * v / (2 * g->acc) + v * GUARD_TIME;
+}
+
+static void work(struct traj *tj)
+{
+    if (tj->end == tj->first) return;
+    const struct traj_seg *last = traj_cseg(tj, tj->end - 1);
+    if (!tj->tail_forced && tj->s_final < last->s1 && tj->dir > 0 && tj->s_final - tj->s < tail_guard(tj)) {
+        tj->tail_forced = 1;
+        tj->n_forced++;
+        update_final(tj);
+    }
+    for (int n = 0; n < CUT_BUDGET && cut_cell(tj); n++) {}
+    sweep_envelope(tj);
+}
+
+/* Forgets executed moves beyond the history. */
+static void retire(struct traj *tj)
+{
+    tj->cur = seg_of(tj, tj->cur, tj->s);
+    while (tj->cur - tj->first > TRAJ_HISTORY) tj->first++;
+    if ((int32_t)(tj->first - tj->cut_join) > 0) tj->cut_join = tj->first;
+    while (tj->cell_first != tj->cell) {
+        const struct traj_cell *second = cell_at(tj, tj->cell_first + 1);
+        int old = second->s0 <= traj_seg(tj, tj->first)->s0;
+        int tight = tj->cell_end - tj->cell_first > TRAJ_CELLS - 256 && tj->cell - tj->cell_first > 1;
+        if (!old && !tight) break;
+        tj->cell_first++;
+    }
+}
+
+void traj_cycle(struct traj *tj)
+{
+    tj->acc = 0;
+    if (tj->end == tj->first) return;
+    work(tj);
+    if (tj->cell_end != tj->cell_first && !tj->waiting) {
+        struct traj_cell *c = cell_at(tj, tj->cell);
+        /* The very first cell of a path: its gate is tested here, later ones on arrival. */
+        if (c->rest && tj->s == c->s0 && tj->dir > 0 && !traj_seg(tj, c->seg)->released) {
+            tj->waiting = 1;
+            tj->wait_seg = c->seg;
+        } else {
+            step_path(tj);
+        }
+    }
+    retire(tj);
+    traj_pose(tj, tj->s, tj->pos);
+}
+
+int64_t traj_waiting(const struct traj *tj)
+{
+    return tj->waiting ? (int64_t)tj->wait_seg : -1;
+}
+
+void traj_release(struct traj *tj)
+{
+    if (!tj->waiting) return;
+    traj_seg(tj, tj->wait_seg)->released = 1;
+    tj->waiting = 0;
+}
+
+int traj_at_rest(const struct traj *tj)
+{
+    return tj->v <= 0;
+}
+
+int traj_done(const struct traj *tj)
+{
+    if (tj->end == tj->first) return 1;
+    return tj->v <= 0 && tj->dir > 0 && tj->s >= traj_cseg(tj, tj->end - 1)->s1;
+}
+
+int traj_active(const struct traj *tj)
+{
+    if (tj->end == tj->first) return 0;
+    const struct traj_seg *g = traj_cseg(tj, tj->cur);
+    if (tj->s - g->s0 < g->w) return 2;
+    if (tj->cur + 1 != tj->end && g->s1 - tj->s < traj_cseg(tj, tj->cur + 1)->w) return 2;
+    return 1;
+}
