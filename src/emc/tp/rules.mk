@@ -1,3 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 TP_SOURCES := $(addprefix src/emc/tp/,path.c traj.c tp.c)
 $(eval $(call rtmodule,tpmod,src/emc/tp/module.c $(TP_SOURCES)))
+
+# Test programs of tests/tp: objects/test/tp-NAME.
+define tp_test
+$(O)/test/tp-$(1): $(call objs,ul,src/emc/tp/test/$(1).c src/emc/tp/test/bench.c $(TP_SOURCES))
+	$$(call say,LINK,$$@)
+	$$(Q)mkdir -p $$(@D) && $$(CC) $$(SAN) $$(LDFLAGS) -o $$@ $$^ -lm
+DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/tp/test/$(1).c src/emc/tp/test/bench.c $(TP_SOURCES)))
+EXTRA_TARGETS += $(O)/test/tp-$(1)
+endef
+$(eval $(call tp_test,basic))
