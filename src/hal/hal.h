@@ -27,7 +27,9 @@
 #error "hal.h: RTAPI and ULAPI exclude each other"
 #endif
 
-#include <signal.h>
+#ifdef ULAPI
+#include <signal.h> /* not for modules: it declares read() and write(), common names of functions */
+#endif
 #include <stdarg.h>
 #include "rtapi.h"
 
