@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+component ohmic "Ohmic probing with a voltage-to-frequency converter";
+pin in bit is_probing "A probe movement runs.";
+pin in float ohmic_low = 21 "Voltage at or below which contact is lost.";
+pin in float ohmic_threshold = 22 "Voltage at or above which there is contact.";
+pin in float thcad_0_volt_freq "Frequency of the converter at 0 volts.";
+pin in float thcad_divide = 32 "Frequency divider of the converter.";
+pin in float thcad_fullscale = 5 "Full scale of the converter in volts.";
+pin in float thcad_max_volt_freq "Frequency of the converter at full scale.";
+pin in float velocity_in "Frequency measured.";
+pin in float volt_divider = 4.9 "Divider before the converter.";
+pin out bit ohmic_on "Contact.";
+pin out float ohmic_volts "Voltage measured.";
+function _ "Updates the outputs.";
+option period no;
+license "GPL";
+author "Kerf developers";
+;;
+double k = 1 / ((thcad_max_volt_freq - thcad_0_volt_freq) / thcad_fullscale / thcad_divide);
+double volts = (velocity_in - thcad_0_volt_freq / thcad_divide) * k * volt_divider;
+ohmic_volts = volts;
+if(is_probing) ohmic_on = volts >= ohmic_threshold;
+else if(volts <= ohmic_low) ohmic_on = 0;
