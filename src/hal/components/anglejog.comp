@@ -93,7 +93,7 @@ FUNCTION(_) {
     }
     limit = max_vel;
     if(request > limit) request = limit;
-    if(request < -limit) request = -limit;
+    else if(request < -limit) request = -limit;
     if(request > current_vel + step) current_vel += step;
     else if(request < current_vel - step) current_vel -= step;
     else current_vel = request;

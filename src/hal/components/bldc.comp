@@ -245,7 +245,7 @@ static int index_init(struct __comp_state *__comp_inst, double *drive, double dt
     if(!index_enable) {
         found(__comp_inst, (double)counts);
     } else {
-        rotor_angle = wrapped(rotor_angle + (initvalue > 0 ? dt : -dt));
+        rotor_angle = wrapped(rotor_angle + (initvalue < 0 ? -dt : dt));
         phase_angle = rotor_angle;
         *drive = fabs(initvalue);
     }

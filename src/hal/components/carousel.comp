@@ -314,7 +314,7 @@ static void start(struct __comp_state *__comp_inst, int goal) {
         counts_target += (double)scale * (target - current_position);
         if(target > number_of_pockets) target = 1;
         if(target < 1) target = number_of_pockets;
-        turn(__comp_inst, jog_fwd);
+        turn(__comp_inst, !(jog_rev && both_ways));
         active = 1;
         state = JOGGING;
         return;

@@ -16,4 +16,4 @@ include "components/real_to_int.h";
 ;;
 value += (in_ - value) * gain;
 if(!isfinite(value)) value = in_;
-out = real_to_s32(floor(value * scale + 0.5));
+out = (rtapi_s32)real_to_s64(floor(value * scale + 0.5));

@@ -19,4 +19,4 @@ if(!reset) {
     out = value;
 }
 if(value > max_) out = max_;
-else if(value < min_) out = min_;
+if(value < min_) out = min_;

@@ -18,7 +18,7 @@
 #define MUX_MAX_BITS 10
 
 struct mux {
-    int entries, bits;                  /* bits: selection pins; 0 if entries is no power of two */
+    int entries, bits;                  /* bits: selection pins; those that fit into entries */
     hal_type_t in_type, out_type;
     hal_bool_t sel_bit[MUX_MAX_BITS], suppress;
     hal_uint_t sel_int, debounce_us, elapsed, selected;
@@ -81,9 +81,7 @@ static inline int mux_parse(struct mux *m, const char *text, const char *module,
         rtapi_print_msg(RTAPI_MSG_ERR, "%s: No type specifiers in fmt string\n", module);
         return -EINVAL;
     }
-    m->bits = 0;
-    if((m->entries & (m->entries - 1)) == 0)
-        while(1 << m->bits < m->entries) m->bits++;
+    for(m->bits = 0; 1 << (m->bits + 1) <= m->entries; m->bits++) {}
     return 0;
 }
 

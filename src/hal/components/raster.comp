@@ -35,7 +35,6 @@ enum { BAD_OFFSET = 1, BAD_BPP, BAD_PPU, BAD_COUNT, BAD_PIXEL, BAD_LENGTH };
 
 static void fail(struct __comp_state *__comp_inst, int code) {
     state = FAULT;
-    fault = 1;
     fault_code = code;
 }
 
@@ -138,6 +137,7 @@ FUNCTION(_) {
         fault = 0;
         fault_code = 0;
         hal_port_clear(program_ptr);
+        return;
     }
     if(state == FAULT) {
         fault = 1;

@@ -93,9 +93,9 @@ static void update_speed(void *arg, long period)
         }
         freq = hal_get_real(e->speed) / e->seen_scale * hal_get_ui32(e->ppr) * 4.0;
         freq = isnan(freq) ? 0 : fmin(max_freq, fmax(-max_freq, freq));
-        freq *= freq_scale;
-        __atomic_store_n(&e->addval, freq > RTAPI_INT32_MAX ? RTAPI_INT32_MAX : real_to_s32(freq),
-                         __ATOMIC_RELAXED);
+        /* At the highest speed each pass is half a turn of the accumulator: both
+         * directions are the same, and count as backward. */
+        __atomic_store_n(&e->addval, real_to_s32(freq * freq_scale), __ATOMIC_RELAXED);
     }
 }
 

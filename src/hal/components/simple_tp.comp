@@ -14,7 +14,7 @@ author "Kerf developers";
 include <rtapi_math.h>;
 ;;
 FUNCTION(update) {
-    double step = maxaccel * fperiod, tiny = step * fperiod * 0.001, request = 0, limit = fabs(maxvel);
+    double step = maxaccel * fperiod, tiny = step * fperiod * 0.001, request = 0, limit = maxvel;
     active = 0;
     if(enable) {
         double error = target_pos - current_pos;

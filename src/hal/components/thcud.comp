@@ -25,7 +25,6 @@ license "GPL";
 author "Kerf developers";
 include <rtapi_math.h>;
 ;;
-cur_offset = offset;
 if(enable) {
     vel_status = current_vel > 0 && current_vel >= requested_vel * (1 - velocity_tol / 100);
     if(torch_on && arc_ok && vel_status) {
@@ -50,3 +49,4 @@ if(enable) {
     z_pos_out = z_pos_in + offset;
     z_fb_out = z_pos_in;
 }
+cur_offset = offset;
