@@ -193,8 +193,8 @@ FUNCTION(read_inputs) {
 /* One step of an offset towards `in`, within its limits. */
 static void step(struct mover *m, double in, double low, double high, double v, double a, double dt) {
     double in_velocity, least_v, most_v, least, most;
-    if(in < low) in = low;
     if(in > high) in = high;
+    else if(in < low) in = low;
     in_velocity = (in - m->old_in) / dt;
     least_v = fmax(m->velocity - a * dt, -v);
     most_v = fmin(m->velocity + a * dt, v);
