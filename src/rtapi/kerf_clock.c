@@ -9,23 +9,48 @@
 #include "kerf_clock.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/wait.h>
 #include <time.h>
+#include "kerf_vclock.h"
+
+#define CHILD_LOOK_NS 1000000 /* virtual time between looks at a child */
+
+static int is_virtual;
+static double the_pace = 1;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static _Thread_local pid_t lent_to_child; /* nonzero: our place is lent */
+
+static void choose(void)
+{
+    const char *mode = getenv("KERF_CLOCK");
+    if (!mode || strncmp(mode, "virtual", 7) != 0) return;
+    the_pace = mode[7] == ':' ? atof(mode + 8) : 0;
+    int result = vclock_attach(the_pace);
+    if (result < 0) {
+        fprintf(stderr, "virtual clock: cannot attach: %s; using real time\n", strerror(-result));
+        return;
+    }
+    is_virtual = 1;
+}
 
 int kerf_clock_is_virtual(void)
 {
-    return 0;
+    pthread_once(&once, choose);
+    return is_virtual;
 }
 
 double kerf_clock_pace(void)
 {
-    return 1;
+    return kerf_clock_is_virtual() ? the_pace : 1;
 }
 
 int64_t kerf_clock_now_ns(void)
 {
+    if (kerf_clock_is_virtual()) return vclock_now();
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return t.tv_sec * 1000000000LL + t.tv_nsec;
@@ -33,6 +58,7 @@ int64_t kerf_clock_now_ns(void)
 
 int kerf_clock_sleep_until_ns(int64_t when_ns)
 {
+    if (kerf_clock_is_virtual()) return vclock_sleep_until(when_ns);
     struct timespec t = {when_ns / 1000000000, when_ns % 1000000000};
     return when_ns > 0 ? -clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, NULL) : 0;
 }
@@ -44,29 +70,41 @@ int kerf_clock_sleep_ns(int64_t ns)
 
 int kerf_clock_join(const char *name, int prio)
 {
-    (void)name, (void)prio;
-    return 0;
+    return kerf_clock_is_virtual() ? vclock_join(name, prio, getenv(KERF_CLOCK_SLOT_ENV)) : 0;
 }
 
 void kerf_clock_leave(void)
 {
+    if (kerf_clock_is_virtual()) vclock_leave();
 }
 
 int kerf_clock_joined(void)
 {
-    return 0;
+    return kerf_clock_is_virtual() && vclock_joined();
 }
 
 void kerf_clock_suspend(void)
 {
+    if (kerf_clock_is_virtual()) vclock_suspend();
 }
 
 void kerf_clock_resume(void)
 {
+    if (kerf_clock_is_virtual()) vclock_resume();
 }
 
 int kerf_clock_poll(struct pollfd *fds, nfds_t count, int64_t timeout_ns)
 {
+    if (kerf_clock_is_virtual()) {
+        int64_t end = kerf_clock_now_ns() + timeout_ns;
+        for (;;) {
+            int n = poll(fds, count, 0);
+            if (n != 0) return n < 0 ? -errno : n;
+            int64_t now = kerf_clock_now_ns();
+            if (timeout_ns >= 0 && now >= end) return 0;
+            kerf_clock_sleep_until_ns(timeout_ns >= 0 && end < now + CHILD_LOOK_NS ? end : now + CHILD_LOOK_NS);
+        }
+    }
     struct timespec t = {timeout_ns / 1000000000, timeout_ns % 1000000000};
     int n = ppoll(fds, count, timeout_ns < 0 ? NULL : &t, NULL);
     return n < 0 ? -errno : n;
@@ -76,49 +114,55 @@ int kerf_clock_wait(int (*ready)(void *arg), void *arg, int64_t period_ns, int64
 {
     int64_t end = kerf_clock_now_ns() + timeout_ns;
     while (!ready(arg)) {
-        if (timeout_ns >= 0 && kerf_clock_now_ns() >= end) {
-            return -ETIMEDOUT;
-        }
+        if (timeout_ns >= 0 && kerf_clock_now_ns() >= end) return -ETIMEDOUT;
         int result = kerf_clock_sleep_ns(period_ns);
-        if (result < 0) {
-            return result;
-        }
+        if (result < 0) return result;
     }
     return 0;
 }
 
 int kerf_clock_lend(char *value, size_t size)
 {
-    if (size > 0) {
-        *value = 0;
-    }
-    return 0;
+    if (size > 0) *value = 0;
+    if (!kerf_clock_joined()) return 0;
+    int result = vclock_lend(value, size);
+    lent_to_child = result == 0;
+    return result;
 }
 
 void kerf_clock_reclaim(void)
 {
+    if (lent_to_child) vclock_reclaim();
+    lent_to_child = 0;
 }
 
 int kerf_clock_reserve(char *value, size_t size, const char *name, int prio)
 {
-    (void)name, (void)prio;
-    if (size > 0) {
-        *value = 0;
-    }
-    return 0;
+    if (size > 0) *value = 0;
+    return kerf_clock_is_virtual() ? vclock_reserve(value, size, name, prio) : 0;
 }
 
 void kerf_clock_reserved_for(const char *value, pid_t pid)
 {
-    (void)value, (void)pid;
+    if (kerf_clock_is_virtual() && value && *value) vclock_reserved_for(value, pid);
 }
 
 void kerf_clock_unreserve(const char *value)
 {
-    (void)value;
+    if (kerf_clock_is_virtual() && value && *value) vclock_unreserve(value);
 }
 
 pid_t kerf_clock_waitpid(pid_t pid, int *status, int options)
 {
-    return waitpid(pid, status, options);
+    if (lent_to_child) {
+        pid_t result = waitpid(pid, status, options);
+        if (result != 0) kerf_clock_reclaim();
+        return result;
+    }
+    if (!kerf_clock_joined() || (options & WNOHANG)) return waitpid(pid, status, options);
+    for (;;) {
+        pid_t result = waitpid(pid, status, options | WNOHANG);
+        if (result != 0) return result;
+        kerf_clock_sleep_ns(CHILD_LOOK_NS);
+    }
 }
