@@ -11,6 +11,10 @@
 #include <sys/types.h>
 #include "rtapi.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define RTAPI_UUID_KEY 0x48484c34 /* holds the counter of module ids */
 
 /* Prints one message; one implementation per kind of process. */
@@ -33,5 +37,9 @@ extern struct rtapi_shmem_policy rtapi_shmem_policy;
 /* Removes segment `key` (of this instance) if no process is attached to it.
  * 1: removed, 0: none or in use, -errno. [init] */
 int rtapi_shmem_remove_stale(int key);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
