@@ -1,0 +1,2 @@
+# Tk programs of operators.
+$(eval $(call script,hal_manualtoolchange,src/emc/usr_intf/tk/hal_manualtoolchange.py))
