@@ -238,9 +238,12 @@ class Session:
             raise Failure("linuxcnc_check_ini validation failed in an unexpected way.", status)
 
     def update_ini(self):
-        if not os.environ.get("DISPLAY"):
-            raise Failure("INI file [EMC]VERSION indicates update is needed, but the update GUI can't run "
-                          "without an X display")
+        if not os.environ.get("DISPLAY"):       # nobody to ask: the backup keeps the old files
+            from . import update_ini
+            backup = update_ini.convert(Path(self.ini_path), self.ini.get("EMC", "VERSION", "0.0"))
+            print(f"{self.ini_path}: updated to version 1.1; the old files are in {backup}", flush=True)
+            self.ini = IniValues(self.ini_path, self.env)
+            return
         status = self.run("update_ini", "-d", self.ini_path)
         if status == 42:
             raise Failure("update_ini cancelled by user", 0)

@@ -1,0 +1,298 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""update_ini: brings configurations of older versions to version 1.1.
+
+1.0 to 1.1 renames spindle pins in HAL files. Older files (axes instead of joints) are
+written anew with [KINS], [AXIS_L] and [JOINT_n]. All plain files of the folder are
+copied to a backup folder first. Rules: INI reference, section 9.
+"""
+
+import getopt
+import os
+import re
+import shutil
+import sys
+from pathlib import Path
+
+CANCELLED = 42
+LETTERS = "XYZABCUVW"
+SPINDLE_PINS = ("brake forward index-enable inhibit on reverse revs speed-in speed-out speed-out-abs speed-out-rps "
+                "speed-out-rps-abs orient-angle orient-mode orient is-oriented orient-fault locked at-speed")
+HALUI_SPINDLE_PINS = ("brake-is-on brake-off brake-on decrease forward increase is-on reverse runs-backward "
+                      "runs-forward start stop override.count-enable override.counts override.decrease "
+                      "override.direct-value override.increase override.scale override.value")
+JOINT_PINS = ("active amp-enable-out amp-fault-in backlash-corr backlash-filt backlash-vel coarse-pos-cmd error "
+              "f-error f-error-lim f-errored faulted free-pos-cmd free-tp-enable free-vel-lim home-state home-sw-in "
+              "homed homing in-position index-enable is-unlocked joint-pos-cmd joint-pos-fb joint-vel-cmd "
+              "kb-jog-active motor-offset motor-pos-cmd motor-pos-fb neg-hard-limit neg-lim-sw-in pos-hard-limit "
+              "pos-lim-sw-in unlock wheel-jog-active")
+JOINT_RENAMES = {"joint-pos-cmd": "pos-cmd", "joint-pos-fb": "pos-fb", "joint-vel-cmd": "vel-cmd"}
+AXIS_ITEMS = ("MIN_LIMIT", "MAX_LIMIT", "MAX_VELOCITY", "MAX_ACCELERATION")
+ORDER = ("EMC", "DISPLAY", "FILTER", "RS274NGC", "EMCMOT", "TASK", "HAL", "HALUI", "TRAJ", "EMCIO")
+
+
+def read_sections(text):
+    """([lines before the first section], {section: [lines]}) in file order."""
+    head, sections, current = [], {}, None
+    for line in text.splitlines():
+        m = re.match(r"\s*\[\s*(\w+)\s*\]", line)
+        if m:
+            current = sections.setdefault(m[1], [])
+        elif current is None:
+            head.append(line)
+        else:
+            current.append(line)
+    return head, sections
+
+
+def value(lines, name):
+    """First value of a variable in a section's lines, or None."""
+    for line in lines or []:
+        m = re.match(rf"\s*{name}\s*=\s*(.*?)\s*$", line)
+        if m:
+            return m[1]
+    return None
+
+
+def values(lines, name):
+    return [m[1] for line in lines or [] if (m := re.match(rf"\s*{name}\s*=\s*(.*?)\s*$", line))]
+
+
+def without(lines, *names):
+    pattern = "|".join(names)
+    return [line for line in lines if not re.match(rf"\s*(?:{pattern})\s*=", line)]
+
+
+def renamed(lines, old, new):
+    return [re.sub(rf"^(\s*){old}(\s*=)", rf"\g<1>{new}\2", line) for line in lines]
+
+
+def rename_spindle_pins(text):
+    """The change of HAL files from 1.0 to 1.1."""
+    for name in SPINDLE_PINS.split():
+        text = re.sub(rf"\bmotion\.spindle-{re.escape(name)}(?![\w.-])", f"spindle.0.{name}", text)
+    for name in HALUI_SPINDLE_PINS.split():
+        text = re.sub(rf"\bhalui\.spindle\.{re.escape(name)}(?![\w.-])", f"halui.spindle.0.{name}", text)
+    return text
+
+
+class OldConfig:
+    """A configuration of before 1.0, where [AXIS_n] meant both axis and joint."""
+
+    def __init__(self, text, hal_texts):
+        self.head, self.sections = read_sections(text)
+        self.hal = "\n".join(hal_texts)
+        traj = self.sections.get("TRAJ", [])
+        letters = (value(traj, "COORDINATES") or "X Y Z").replace(" ", "").upper()
+        axes = int(value(traj, "AXES") or len(letters))
+        if axes == 9 and len(letters) < 9:
+            letters = LETTERS
+        self.letters = letters
+        self.numbers = [LETTERS.index(c) for c in letters]
+        self.tandem = self.gantry_letters()
+        if self.tandem:
+            self.letters, self.numbers = self.tandem, list(range(len(self.tandem)))
+
+    def gantry_letters(self):
+        """Letters of gantrykins.joint-N, or "" on other machines."""
+        found = dict(re.findall(r"^\s*setp\s+gantrykins\.joint-(\d)\s+(\w)", self.hal, re.M))
+        return "".join(found[k].upper() if not found[k].isdigit() else LETTERS[int(found[k])] for k in sorted(found))
+
+    def kinematics(self):
+        m = re.search(r"^\s*loadrt\s+(\w*kins\w*)", self.hal, re.M)
+        name = m[1] if m else "trivkins"
+        if name == "gantrykins":
+            return f"trivkins coordinates={self.tandem or self.letters} kinstype=BOTH"
+        if name in ("gentrivkins", "trivkins"):
+            return "trivkins" if self.letters == "XYZ" else f"trivkins coordinates={self.letters}"
+        return name
+
+    def rs274ngc(self):
+        lines = self.sections.get("RS274NGC", [])
+        features = value(lines, "FEATURES")
+        if features is None:
+            return lines
+        bits = int(features, 0)
+        new = [f"RETAIN_G43 = {bits & 1}", f"INI_VARS = {bits >> 2 & 1}", f"HAL_PIN_VARS = {bits >> 3 & 1}"]
+        new += [f"{name} = 1" for name, bit in (("OWORD_NARGS", 2), ("NO_DOWNCASE_OWORD", 0x10),
+                                                ("OWORD_WARNONLY", 0x20)) if bits & bit]
+        return without(lines, "FEATURES") + new
+
+    def traj(self):
+        lines = without(self.sections.get("TRAJ", []), "AXES", "CYCLE_TIME", "COORDINATES")
+        for old, new in (("MAX_VELOCITY", "MAX_LINEAR_VELOCITY"), ("DEFAULT_VELOCITY", "DEFAULT_LINEAR_VELOCITY"),
+                         ("MAX_ACCELERATION", "MAX_LINEAR_ACCELERATION"),
+                         ("DEFAULT_ACCELERATION", "DEFAULT_LINEAR_ACCELERATION")):
+            lines = renamed(lines, old, new)
+        if value(lines, "MAX_LINEAR_VELOCITY") is None:
+            fastest = max((float(v) for n in self.numbers
+                           for v in values(self.sections.get(f"AXIS_{n}"), "MAX_VELOCITY")), default=1.0)
+            lines.append(f"MAX_LINEAR_VELOCITY = {fastest:g}")
+        return [f"COORDINATES = {' '.join(self.letters)}"] + lines
+
+    def joint(self, number):
+        lines = [re.sub(r"^(\s*HOME_SEQUENCE\s*=\s*)-1\s*$", r"# \1-1", line)
+                 for line in without(self.sections.get(f"AXIS_{number}", []), "LOCKING_INDEXER_JOINT")]
+        letter = self.letters[self.numbers.index(number)]
+        if self.letters.count(letter) > 1:
+            lines = [re.sub(r"^(\s*HOME_SEQUENCE\s*=\s*)(\d+)", r"\1-\2", line) for line in lines]
+        return lines
+
+    def text(self, backup):
+        out = ["# This config file was created by the update_ini script",
+               f"# The original config files may be found in the {backup} directory"] + self.head
+        emc = without(self.sections.get("EMC", []), "VERSION")
+        parts = dict(self.sections, EMC=["VERSION = 1.1"] + emc, RS274NGC=self.rs274ngc(), TRAJ=self.traj(),
+                     EMCMOT=without(self.sections.get("EMCMOT", []), "COMM_WAIT"))
+        done = set()
+        for name in ORDER:
+            if name in parts:
+                out += [f"[{name}]"] + parts[name]
+                done.add(name)
+        out += ["[KINS]", f"KINEMATICS = {self.kinematics()}", f"JOINTS = {len(self.letters)}", ""]
+        seen = set()
+        for letter, number in zip(self.letters, self.numbers):
+            old = self.sections.get(f"AXIS_{number}", [])
+            if letter not in seen:
+                out.append(f"[AXIS_{letter}]")
+                out += [f"{item} = {value(old, item)}" for item in AXIS_ITEMS if value(old, item) is not None]
+                if value(old, "LOCKING_INDEXER") is not None:
+                    out.append(f"LOCKING_INDEXER_JOINT = {self.numbers.index(number)}")
+                out.append("")
+                seen.add(letter)
+        for index, number in enumerate(self.numbers):
+            out += [f"[JOINT_{index}]"] + self.joint(number)
+            done.add(f"AXIS_{number}")
+        for name, lines in self.sections.items():
+            if name not in done and name != "KINS" and not re.fullmatch(r"AXIS_\d", name):
+                out += [f"[{name}]"] + lines
+        return "\n".join(out) + "\n"
+
+    def hal_text(self, text):
+        """A HAL file with joints and axes told apart."""
+        for index, number in enumerate(self.numbers):
+            for pin in JOINT_PINS.split():
+                text = re.sub(rf"\baxis\.{number}\.{pin}(?![\w-])",
+                              f"joint.{index}.{JOINT_RENAMES.get(pin, pin)}", text)
+            letter = self.letters[index].lower()
+            for pin in ("jog-counts", "jog-enable", "jog-scale", "jog-vel-mode"):
+                pattern = rf"\baxis\.{number}\.{pin}(?![\w-])"
+                lines = []
+                for line in text.splitlines(keepends=True):
+                    if re.search(pattern, line):
+                        joint = re.sub(pattern, f"joint.{index}.{pin}", line)
+                        axis = re.sub(pattern, f"axis.{letter}.{pin}", line)
+                        lines.append(joint)
+                        lines.append(axis if axis.endswith("\n") else "\n" + axis)
+                    else:
+                        lines.append(line)
+                text = "".join(lines)
+            text = re.sub(rf"\bhalui\.jog\.{number}\.", f"halui.axis.{letter}.", text)
+        text = re.sub(r"^(\s*)loadrt\s+(\w*kins\w*)(.*)$", r"\1loadrt [KINS]KINEMATICS\n#autoconverted \2\3", text,
+                      count=1, flags=re.M)
+        text = text.replace("num_joints=[TRAJ]AXES", "num_joints=[KINS]JOINTS")
+        text = re.sub(r"\bshuttle(?:xpress|pro)\b", "shuttle", text)
+        text = re.sub(r"^(\s*setp\s+gantrykins\.)", r"#\1", text, flags=re.M)
+        return rename_spindle_pins(text)
+
+
+def hal_files(folder, sections):
+    """HAL files of the INI file that belong to the configuration's folder."""
+    hal = sections.get("HAL", [])
+    names = [v.split()[0] for v in values(hal, "HALFILE") + values(hal, "POSTGUI_HALFILE") if v]
+    if (folder / "touchy.hal").exists():
+        names.append("touchy.hal")
+    found = []
+    for name in dict.fromkeys(names):
+        if (folder / name).is_file():
+            found.append(folder / name)
+        elif (folder / "hallib" / name).is_file():
+            shutil.copyfile(folder / "hallib" / name, folder / name)
+            found.append(folder / name)
+    return found
+
+
+def replace(path, text):
+    """Writes a file whole or not at all."""
+    new = path.with_name(path.name + ".new")
+    with open(new, "w") as f:
+        f.write(text)
+        f.flush()
+        os.fsync(f.fileno())
+    shutil.copymode(path, new)
+    os.replace(new, path)
+
+
+def backup_of(folder, name):
+    target = folder / f"{name}.old"
+    while target.exists():
+        target = target.with_name(target.name + ".old")
+    target.mkdir()
+    for f in folder.iterdir():
+        if f.is_file():
+            shutil.copy2(f, target / f.name)
+    return target
+
+
+def agreed(question, dialogs):
+    """The user's yes or no, in a window or on the terminal."""
+    if dialogs:
+        import tkinter
+        from tkinter import messagebox
+        root = tkinter.Tk()
+        root.withdraw()
+        answer = messagebox.askyesno("update_ini", question)
+        root.destroy()
+        return answer
+    return input(question + " [Y/n] ").strip().lower() in ("", "y", "yes")
+
+
+def convert(path, version):
+    """Rewrites the configuration; returns the backup folder."""
+    text = path.read_text(errors="surrogateescape")
+    _, sections = read_sections(text)
+    files = hal_files(path.parent, sections)
+    backup = backup_of(path.parent, path.stem)
+    texts = {f: f.read_text(errors="surrogateescape") for f in files}
+    if version == "1.0":
+        replace(path, re.sub(r"(?m)^(\s*VERSION\s*=\s*)1\.0\s*$", r"\g<1>1.1", text, count=1))
+        for f, old in texts.items():
+            replace(f, rename_spindle_pins(old))
+    else:
+        old_config = OldConfig(text, list(texts.values()))
+        replace(path, old_config.text(backup.name))
+        for f, old in texts.items():
+            replace(f, old_config.hal_text(old))
+    return backup
+
+
+def main(argv):
+    try:
+        options, files = getopt.getopt(argv, "df")
+    except getopt.GetoptError as e:
+        print(f"update_ini: {e}\nUsage: update_ini [-d] [-f] FILE")
+        return 0
+    flags = [o for o, _ in options]
+    if len(files) != 1:
+        print("Usage: update_ini [-d] [-f] FILE")
+        return 0
+    path = Path(re.sub(r"\.expanded$", "", files[0])).resolve()
+    _, sections = read_sections(path.read_text(errors="surrogateescape"))
+    version = value(sections.get("EMC"), "VERSION") or "0.0"
+    if version.startswith("$"):
+        version = "0.1"
+    if version >= "1.1":
+        print(f"{path.name}: already at version {version}")
+        return 0
+    if "-f" not in flags:
+        question = (f"{path.name} has version {version}. It will be updated to 1.1; the present files are "
+                    "kept in a backup folder. Go on?")
+        if value(sections.get("KINS"), "JOINTS") and version != "1.0":
+            question = f"{path.name} looks as if it had been updated already. " + question
+        if not agreed(question, "-d" in flags):
+            return CANCELLED
+    backup = convert(path, version)
+    if "-f" in flags:
+        shutil.rmtree(backup)
+    else:
+        print(f"Updated; the old files are in {backup}")
+    return 0

@@ -1,0 +1,15 @@
+#!/bin/bash
+# Version 1.0: spindle pins. Before: axes become joints and axes. The old files are kept.
+out=$(mktemp -d); trap 'rm -rf "$out"' EXIT
+printf '[EMC]\nVERSION = 1.0\n[HAL]\nHALFILE = a.hal\n' > "$out/a.ini"
+printf 'net s motion.spindle-speed-out => pid.command\nnet f halui.spindle.forward\nnet o halui.spindle.override.value\n' > "$out/a.hal"
+echo y | (cd "$out" && update_ini a.ini) | sed "s|$out|DIR|"
+cat "$out/a.ini" "$out/a.hal"; ls "$out/a.old"
+printf '[EMC]\nVERSION = $Revision$\n[TRAJ]\nAXES = 2\nCOORDINATES = X Z\nMAX_VELOCITY = 3\n[RS274NGC]\nFEATURES = 12\n[HAL]\nHALFILE = b.hal\n[AXIS_0]\nMIN_LIMIT = -1\nMAX_VELOCITY = 2\nHOME_SEQUENCE = -1\n[AXIS_2]\nMIN_LIMIT = -2\n[MINE]\nA = 1\n' > "$out/b.ini"
+printf 'loadrt trivkins\nloadrt motmod num_joints=[TRAJ]AXES\nnet x axis.0.motor-pos-cmd\nnet z axis.2.joint-pos-cmd\nsetp axis.2.jog-scale 1\n' > "$out/b.hal"
+(cd "$out" && update_ini -f b.ini); ls "$out"
+cat "$out/b.ini" "$out/b.hal"
+(cd "$out" && update_ini b.ini)
+echo "status $?"
+printf '[EMC]\nVERSION = 1.0\n' > "$out/c.ini"
+echo n | (cd "$out" && update_ini c.ini > /dev/null; echo "status $?"); cat "$out/c.ini"
