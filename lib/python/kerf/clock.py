@@ -47,19 +47,29 @@ def is_virtual():
 def run(command, **options):
     """subprocess.run of a child that shares our place on the clock while we wait for it."""
     env = dict(options.pop("env", None) or os.environ)
-    env.update(kerf_clock.lend_env())
-    return subprocess.run(command, env=env, **options)
+    place = kerf_clock.lend()
+    if place:
+        env[kerf_clock.SLOT_ENV] = place
+    else:
+        env.pop(kerf_clock.SLOT_ENV, None)
+    try:
+        return subprocess.run(command, env=env, **options)
+    finally:
+        kerf_clock.reclaim()
 
 
 def spawn(command, name, priority=100, **options):
     """subprocess.Popen of a child with a place of its own on the clock (held until it joins)."""
     env = dict(options.pop("env", None) or os.environ)
-    slot = kerf_clock.reserve(name, priority)
-    env.update(kerf_clock.reserved_env(slot))
+    place = kerf_clock.reserve(name, priority) if kerf_clock.joined() else ""
+    if place:
+        env[kerf_clock.SLOT_ENV] = place
+    else:
+        env.pop(kerf_clock.SLOT_ENV, None)
     try:
         child = subprocess.Popen(command, env=env, **options)
     except OSError:
-        kerf_clock.release(slot)
+        kerf_clock.unreserve(place)
         raise
-    kerf_clock.assign(slot, child.pid)
+    kerf_clock.reserved_for(place, child.pid)
     return child
