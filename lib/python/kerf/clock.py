@@ -20,6 +20,15 @@ def leave():
     kerf_clock.leave()
 
 
+def suspend():
+    """Time goes on without us until resume(): for waits that only the outside world ends."""
+    kerf_clock.suspend()
+
+
+def resume():
+    kerf_clock.resume()
+
+
 def now():
     """Seconds on the controller's clock."""
     return kerf_clock.now()

@@ -434,6 +434,7 @@ class Session:
     def run_display(self):
         command = self.display_command()
         self.display = clock.spawn(command, "display", env=self.env)
+        clock.suspend()
         while True:
             try:
                 status = self.display.wait(timeout=0.1)

@@ -371,6 +371,7 @@ int as_client(const Words &words)
 void daemon_main(int listener, const Words &first, int answer)
 {
     setsid();
+    unsetenv(KERF_CLOCK_SLOT_ENV); // that place belongs to whoever started us
     host_messages_start();
     rtapi_shmem_policy.lock = host_realtime_type() > REALTIME_TYPE_NONE;
     host_setup();
