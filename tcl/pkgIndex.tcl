@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+package ifneeded Hal 1.0 [list load [file join $dir hal.so] Hal]
+package ifneeded Linuxcnc 1.0 [list source [file join $dir linuxcnc.tcl]]
