@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The component `lat` of latency-test: shows intervals and jitter, offers a reset.
+
+Its maxima never go down but by reset. Times are ns.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from .. import clock
+from .session import Platform
+
+ROWS = (("servo", "s"), ("base", "b"))
+
+
+class Worst:
+    """Largest interval and jitter seen of each thread."""
+
+    def __init__(self, letters: str):
+        self.letters = letters
+        self.reset()
+
+    def reset(self):
+        self.interval = dict.fromkeys(self.letters, 0)
+        self.jitter = dict.fromkeys(self.letters, 0)
+
+    def update(self, component):
+        for letter in self.letters:
+            self.interval[letter] = max(self.interval[letter], component[letter + "l"])
+            self.jitter[letter] = max(self.jitter[letter], component[letter + "j"])
+
+
+def make_component(hal):
+    component = hal.component("lat")
+    for _, letter in ROWS:
+        for kind in "ljt":
+            component.newpin(letter + kind, hal.HAL_S32, hal.HAL_IN)
+    component.newpin("reset", hal.HAL_BIT, hal.HAL_OUT)
+    component.ready()
+    return component
+
+
+def run_lines(component, worst: Worst, names: dict, seconds: int):
+    start = clock.now()
+    while True:
+        clock.sleep(1.0)
+        worst.update(component)
+        elapsed = round(clock.now() - start)
+        for letter in worst.letters:
+            print(f"{elapsed:5d} s {names[letter]:>5s} max interval: {worst.interval[letter]:>10d} ns "
+                  f"max jitter: {worst.jitter[letter]:>10d} ns last: {component[letter + 't']:>10d} ns", flush=True)
+        if seconds and elapsed >= seconds:
+            return
+
+
+def run_window(component, worst: Worst, names: dict, periods: dict, platform: Platform, seconds: int):
+    import tkinter as tk
+    root = tk.Tk()
+    root.title("latency-test")
+    tk.Label(root, text="Let this test run for some minutes while the computer works as hard as it will:\n"
+                        "windows are moved, files copied, graphics drawn.", justify="left").grid(
+        row=0, columnspan=4, sticky="w", padx=6, pady=4)
+    for column, text in enumerate(("", "Max interval (ns)", "Max jitter (ns)", "Last interval (ns)")):
+        tk.Label(root, text=text).grid(row=1, column=column, padx=6)
+    cells = {}
+    for row, letter in enumerate(worst.letters, 2):
+        tk.Label(root, text=f"{names[letter].capitalize()} thread ({periods[letter] / 1000:g} µs)").grid(
+            row=row, column=0, sticky="w", padx=6)
+        for column in (1, 2, 3):
+            cells[letter, column] = tk.Label(root, text="0", width=14, relief="sunken", anchor="e")
+            cells[letter, column].grid(row=row, column=column, padx=6, pady=2)
+    tk.Label(root, text=platform.banner(), justify="left").grid(row=8, columnspan=4, sticky="w", padx=6, pady=4)
+
+    def reset():
+        component["reset"] = True
+        worst.reset()
+        root.after(100, lambda: component.__setitem__("reset", False))
+
+    tk.Button(root, text="Reset statistics", command=reset).grid(row=9, columnspan=4, pady=4)
+
+    def tick():
+        if not component["reset"]:
+            worst.update(component)
+        for letter in worst.letters:
+            for column, value in ((1, worst.interval[letter]), (2, worst.jitter[letter]), (3, component[letter + "t"])):
+                cells[letter, column]["text"] = str(value)
+        root.after(100, tick)
+
+    root.after(100, tick)
+    if seconds:
+        root.after(seconds * 1000, root.destroy)
+    root.mainloop()
+
+
+def main(arguments: list[str]) -> int:
+    p = argparse.ArgumentParser(prog="latency-panel")
+    p.add_argument("--nox", action="store_true")
+    p.add_argument("--seconds", type=int, default=0)
+    p.add_argument("--worst", type=Path)
+    p.add_argument("base_ns", type=int)
+    p.add_argument("servo_ns", type=int)
+    o = p.parse_args(arguments)
+    import hal
+    clock.join("lat")
+    names, periods = {"s": "servo", "b": "base"}, {"s": o.servo_ns, "b": o.base_ns}
+    worst = Worst("bs" if o.base_ns else "s")
+    component = make_component(hal)
+    try:
+        if o.nox:
+            run_lines(component, worst, names, o.seconds)
+        else:
+            run_window(component, worst, names, periods, Platform(), o.seconds)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        if o.worst:
+            o.worst.write_text(f"{max(worst.jitter.values())}\n")
+        component.exit()
+        clock.leave()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A realtime session for a measuring tool, and what to know of the machine it runs on."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from .. import clock
+from ..tree import Tree
+
+CPU = Path("/sys/devices/system/cpu")
+
+
+class ToolError(Exception):
+    """Ends a tool with exit status 1; the text is for the user."""
+
+
+def halcmd(*words: str) -> str:
+    """Executes a HAL command; its output. Raises ToolError with its complaint."""
+    done = clock.run(["halcmd", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                     text=True)
+    if done.returncode:
+        raise ToolError(done.stderr.strip() or f"halcmd {' '.join(words)} failed")
+    return done.stdout
+
+
+def realtime(command: str, **options) -> subprocess.CompletedProcess:
+    script = os.environ.get("REALTIME") or str(Tree.find().realtime)
+    return clock.run([script, command], stdin=subprocess.DEVNULL, **options)
+
+
+def realtime_running() -> bool:
+    return realtime("status", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+
+
+class RealtimeSession:
+    """A realtime process of our own, ended with all that was loaded when the block is left."""
+
+    def __enter__(self):
+        if realtime_running():
+            raise ToolError("Realtime is running already: end the running session first (halrun -U)")
+        if realtime("start").returncode:
+            raise ToolError("the realtime system did not start")
+        return self
+
+    def __exit__(self, *exception):
+        for words in (("stop",), ("unload", "all")):
+            try:
+                halcmd(*words)
+            except ToolError as problem:
+                print(problem, file=sys.stderr)
+        realtime("stop")
+        return False
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text().strip()
+    except OSError:
+        return ""
+
+
+class Platform:
+    """What decides whether a latency measurement says anything: kind of realtime, clock
+    governor of the processors, processors kept free of other work."""
+
+    def __init__(self):
+        verify = realtime("verify", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.is_realtime = verify.returncode == 0
+        self.realtime = verify.stdout.strip() or "No realtime"
+        self.governors = sorted({_read(p) for p in CPU.glob("cpu[0-9]*/cpufreq/scaling_governor")} - {""})
+        self.isolated = _read(CPU / "isolated")
+        self.kernel = os.uname().release
+        self.virtual_clock = clock.is_virtual()
+
+    def text(self) -> str:
+        """One line."""
+        governor = ",".join(self.governors) or "unknown"
+        return f"realtime: {self.realtime}; governor: {governor}; isolcpus: {self.isolated or 'none'}"
+
+    def doubts(self) -> list[str]:
+        """Reasons why figures from this run are no measure of the machine; empty: none."""
+        found = []
+        if self.virtual_clock:
+            found.append("time is simulated: these figures say nothing about latency")
+        if not self.is_realtime:
+            found.append(f"no realtime scheduling ({self.realtime}): expect latencies of milliseconds; "
+                         "see 'realtime verify'")
+        slow = [g for g in self.governors if g not in ("performance",)]
+        if slow:
+            found.append(f"processor governor is {','.join(slow)}, not performance")
+        if self.is_realtime and not self.isolated and (os.cpu_count() or 1) > 1:
+            found.append("no processor is isolated (isolcpus)")
+        return found
+
+    def banner(self) -> str:
+        lines = [self.text()]
+        lines += [f"NOT REPRESENTATIVE: {doubt}" for doubt in self.doubts()]
+        return "\n".join(lines)
