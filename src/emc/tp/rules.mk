@@ -11,3 +11,4 @@ DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/tp/test/$(1).c src/emc/tp/test
 EXTRA_TARGETS += $(O)/test/tp-$(1)
 endef
 $(eval $(call tp_test,basic))
+$(eval $(call tp_test,property))

@@ -9,7 +9,8 @@
 
 #define CUT_BUDGET 32      /* cells made in a cycle */
 #define SWEEP_BUDGET 512   /* cells looked at by the envelope in a cycle */
-#define PORTIONS 64        /* pieces of constant acceleration in a cycle */
+#define CELLS_CYCLE 24     /* the speed is capped so that so many cells in a row last a cycle */
+#define PORTIONS (8 * CELLS_CYCLE) /* pieces of constant acceleration in a cycle, never reached */
 #define SCAN_LIMIT 64      /* junctions whose rounding may cover one point, each side */
 
 #define CELL_MOVES 64      /* moves that one cell may span; less than TRAJ_HISTORY */
@@ -152,7 +153,7 @@ static void make_join(struct traj *tj, uint32_t index, int rest_before)
         g->join = JOIN_SMOOTH;
         return;
     }
-    if (prev->end == TRAJ_EXACT) {
+    if (prev->end == TRAJ_EXACT || g->end != TRAJ_BLEND) {
         join_kink(tj, prev, g, room);
         return;
     }
@@ -410,6 +411,10 @@ static int cut_cell(struct traj *tj)
     c->rest = g->join == JOIN_REST && a <= g->s0 + tiny;
     c->k = 0;
     c->kr = 0;
+    if (tj->cell_end - tj->cell_first >= CELLS_CYCLE) {
+        double v = (end - cell_at(tj, tj->cell_end - CELLS_CYCLE + 1)->s0) / tj->dt;
+        cap = fmin(cap, v * v);
+    }
     bound_cell(tj, c, rounded, arc, share, cap);
     tj->cut_s = end;
     tj->cell_end++;

@@ -294,6 +294,14 @@ static double dist_at(const struct prog *m, double t, const double p[AXES])
     return group_dist(p, q);
 }
 
+/* Length of the longest group of an arc. */
+static double group_step(const struct prog *m)
+{
+    double d[AXES];
+    for (int i = 0; i < AXES; i++) d[i] = m->end[i] - m->start[i];
+    return fmax(m->len, fmax(norm3(d + 3), norm3(d + 6)));
+}
+
 static double dist_to(const struct prog *m, const double p[AXES])
 {
     if (!m->arc) {
@@ -317,19 +325,41 @@ static double dist_to(const struct prog *m, const double p[AXES])
         }
         return fmin(best, dist_at(m, (lo + hi) / 2, p));
     }
-    int parts = 4 + (int)(m->angle * 4);
-    double best = 1e30, bt = 0;
+    /* Coarse samples, then a search around each local minimum that could still be the least. */
+    int parts = 8 + (int)(m->angle * 8);
+    double best = 1e30, before = 1e30, here = dist_at(m, 0, p);
     for (int n = 0; n <= parts; n++) {
-        double d = dist_at(m, (double)n / parts, p);
-        if (d < best) best = d, bt = (double)n / parts;
+        double after = n < parts ? dist_at(m, (n + 1.0) / parts, p) : 1e30;
+        if (here <= before && here <= after && here - 3 * group_step(m) / parts < best) {
+            double lo = fmax(0, (n - 1.0) / parts), hi = fmin(1, (n + 1.0) / parts);
+            for (int k = 0; k < 50; k++) {
+                double t1 = lo + (hi - lo) / 3, t2 = hi - (hi - lo) / 3;
+                if (dist_at(m, t1, p) < dist_at(m, t2, p)) hi = t2;
+                else lo = t1;
+            }
+            best = fmin(best, fmin(here, dist_at(m, (lo + hi) / 2, p)));
+        }
+        before = here, here = after;
     }
-    double lo = fmax(0, bt - 1.0 / parts), hi = fmin(1, bt + 1.0 / parts);
-    for (int n = 0; n < 60; n++) {
-        double t1 = lo + (hi - lo) / 3, t2 = hi - (hi - lo) / 3;
-        if (dist_at(m, t1, p) < dist_at(m, t2, p)) hi = t2;
-        else lo = t1;
+    return best;
+}
+
+/* A junction's tolerance is the smaller of its moves' (0 in blend mode: none given). A point near move
+ * k may belong to a rounding at either end of it, or of a neighbour that is as near. */
+static double tolerance_near(const struct bench *b, int near)
+{
+    double most = 0;
+    for (int k = near - 2; k <= near + 1; k++) {
+        if (k < 0 || k + 1 >= b->n) continue;
+        double t = 1e30;
+        for (int i = k; i <= k + 1; i++) {
+            const struct prog *m = &b->prog[i];
+            if (m->term != EMCMOT_TERM_COND_BLEND) t = 0;
+            else if (m->tol > 0) t = fmin(t, m->tol);
+        }
+        most = fmax(most, t);
     }
-    return fmin(best, dist_at(m, (lo + hi) / 2, p));
+    return most;
 }
 
 double bench_distance(struct bench *b, const double p[AXES], double *tol)
@@ -351,13 +381,7 @@ double bench_distance(struct bench *b, const double p[AXES], double *tol)
         }
         if (best < 1e-9) break;
     }
-    /* tolerance: of the moves around the nearest one */
-    for (int k = b->near - 1; k <= b->near + 1; k++) {
-        if (k < 0 || k >= b->n) continue;
-        const struct prog *m = &b->prog[k];
-        double t = m->term != EMCMOT_TERM_COND_BLEND ? 0 : m->tol > 0 ? m->tol : 1e30;
-        if (k != b->near + 1) *tol = fmax(*tol, t);
-    }
+    *tol = fmax(tolerance_near(b, b->near), tolerance_near(b, id));
     return best;
 }
 
@@ -384,6 +408,9 @@ void bench_cycle(struct bench *b)
         if (v > b->worst_v) b->worst_v = v, b->worst_v_at = b->cycles, b->worst_v_axis = i;
         if (b->have < 3 || b->a[i] <= 0) continue;
         double a = (fabs(b->p[0][i] - 2 * b->p[1][i] + b->p[2][i]) - 4 * noise) / (b->dt * b->dt) / b->a[i];
+        if (bench_verbose && a > 1.001)
+            fprintf(stderr, "cycle %llu: axis %d acceleration ratio %g, id %d, position %.9g, steps %g %g\n",
+                    (unsigned long long)b->cycles, i, a, b->status.id, now[i], b->p[0][i] - b->p[1][i], b->p[1][i] - b->p[2][i]);
         if (a > b->worst_a) b->worst_a = a, b->worst_a_at = b->cycles, b->worst_a_axis = i;
         if (b->have < 4 || !b->jerk_on || b->j[i] <= 0) continue;
         double j = fabs(b->p[0][i] - 3 * b->p[1][i] + 3 * b->p[2][i] - b->p[3][i]) - 8 * noise;
@@ -397,7 +424,18 @@ void bench_cycle(struct bench *b)
         off = bench_distance(b, q, &tol);
         double ratio = off / (tol > 1e-6 ? tol : 1e-6);
         if (off > b->worst_off && tol < 1e29) b->worst_off = off;
-        if (ratio > b->worst_dev) b->worst_dev = ratio, b->worst_dev_at = b->cycles;
+        if (ratio > b->worst_dev) {
+            b->worst_dev = ratio, b->worst_dev_at = b->cycles;
+            if (bench_verbose && ratio > 1.001) {
+                const struct prog *m = &b->prog[b->near];
+                const struct prog *e = &b->prog[b->status.id > 0 ? b->status.id - 1 : 0];
+                fprintf(stderr, "executing: %s radius %g angle %g len %g spiral %g rise %g normal %g %g %g turn %d: %g off\n", e->arc ? "arc" : "line",
+                        e->radius, e->angle, e->len, e->spiral, e->rise, e->normal[0], e->normal[1], e->normal[2], e->turn, dist_to(e, q));
+                fprintf(stderr, "cycle %llu: %g off (tolerance %g), move %d (id %d): %s term %d tol %g len %g radius %g angle %g\n",
+                        (unsigned long long)b->cycles, off, tol, b->near, b->status.id, m->arc ? "arc" : "line", m->term,
+                        m->tol, m->len, m->radius, m->angle);
+            }
+        }
     }
 }
 
