@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * varfile.cc - the parameter file: numbers that survive.
+ *
+ * In/Out: lines "NUMBER<tab>VALUE", ascending
+ * Thread: [task]
+ * Method: written to NAME.new, synced, the old file linked to NAME.bak, renamed.
+ *         A file that could not be read whole is never overwritten.
+ * Source: G-code sheet, section 4 "Var file"
+ */
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "stages.hh"
+
+namespace ngc
+{
+namespace
+{
+
+bool required(int n)
+{
+    if (n < 5161) return false;
+    if (n <= 5169) return true;
+    if (n >= 5181 && n <= 5189) return true;
+    if (n >= 5210 && n <= 5230) return true;
+    return n > 5230 && n <= 5390 && n % 20 >= 1 && n % 20 <= 10;
+}
+
+// "NUMBER VALUE"; false when the line does not scan as two numbers.
+bool parse_line(const char *line, int *number, double *value)
+{
+    char *end;
+    errno = 0;
+    long n = strtol(line, &end, 10);
+    if (end == line || (*end != ' ' && *end != '\t')) return false;
+    if (n > 1000000) n = 1000000;
+    if (n < -1000000) n = -1000000;
+    while (*end == ' ' || *end == '\t') ++end;
+    const char *first = *end == '+' ? end + 1 : end;
+    auto result = std::from_chars(first, first + strlen(first), *value);
+    if (result.ec != std::errc()) return false;
+    *number = int(n);
+    return true;
+}
+
+// Calls take(number, value) for each line of the file. 0, or the number of the bad line.
+template <class Take> int scan(FILE *f, Take take, const char **why)
+{
+    char line[256];
+    int count = 0, last = 0;
+    while (fgets(line, sizeof line, f)) {
+        ++count;
+        int number;
+        double value;
+        if (!parse_line(line, &number, &value)) continue;
+        if (number < 1 || number > MAX_PARAMETER) {
+            *why = "Parameter number out of range";
+            return count;
+        }
+        if (number <= last) {
+            *why = "Parameter file out of order";
+            return count;
+        }
+        last = number;
+        take(number, value);
+    }
+    return 0;
+}
+
+} // namespace
+
+int load_parameters(Setup &s)
+{
+    s.parameter_file_bad = false;
+    for (double &v : s.parameters) v = 0;
+    if (s.parameter_file.empty()) return INTERP_OK;
+    FILE *f = fopen(s.parameter_file.c_str(), "re");
+    if (!f) {
+        CHECK(errno != ENOENT, "Unable to open parameter file: '%s'", s.parameter_file.c_str());
+        return INTERP_OK;
+    }
+    std::vector<double> loaded(s.parameters.size(), 0.0);
+    const char *why = nullptr;
+    int entries = 0;
+    int bad = scan(f, [&](int n, double v) { loaded[size_t(n)] = v, ++entries; }, &why);
+    long size = ftell(f);
+    fclose(f);
+    if (bad) {
+        s.parameter_file_bad = true;
+        int result = s.fail(__func__, "%s", why);
+        s.fault.file = s.parameter_file;
+        s.fault.line = bad;
+        s.fault.column = 0;
+        s.fault.text.clear();
+        s.fault.fix = "the file is left as it is; correct the line, or restore " + s.parameter_file + ".bak";
+        return result;
+    }
+    s.parameters = std::move(loaded);
+    if (entries == 0)
+        fprintf(stderr, "%s: %s; all parameters start at 0%s\n", s.parameter_file.c_str(),
+                size ? "no line holds a number and a value" : "the parameter file is empty",
+                access((s.parameter_file + ".bak").c_str(), R_OK) == 0 ? " (the previous version is in .bak)" : "");
+    return INTERP_OK;
+}
+
+int save_parameters(Setup &s)
+{
+    if (s.parameter_file.empty() || s.parameter_file_bad) return INTERP_OK;
+    std::bitset<MAX_PARAMETER + 1> kept;
+    for (int n = 1; n <= MAX_PARAMETER; ++n) kept[size_t(n)] = required(n);
+    if (FILE *old = fopen(s.parameter_file.c_str(), "re")) {
+        const char *why;
+        int bad = scan(old, [&](int n, double) { kept[size_t(n)] = true; }, &why);
+        fclose(old);
+        CHECK(bad, "%s", why);
+    }
+    const std::string fresh = s.parameter_file + ".new", backup = s.parameter_file + ".bak";
+    FILE *f = fopen(fresh.c_str(), "we");
+    CHECK(!f, "Cannot open variable file");
+    bool good = true;
+    for (int n = 1; n <= MAX_PARAMETER; ++n) {
+        if (!kept[size_t(n)]) continue;
+        char line[64];
+        int length = snprintf(line, sizeof line, "%d\t%f\n", n, parameter_now(s, n));
+        for (char *c = line; *c; ++c)
+            if (*c == ',') *c = '.'; // whatever the locale says
+        good = fwrite(line, 1, size_t(length), f) == size_t(length) && good;
+    }
+    good = fflush(f) == 0 && good;
+    good = fdatasync(fileno(f)) == 0 && good;
+    good = fclose(f) == 0 && good;
+    if (!good) {
+        unlink(fresh.c_str());
+        FAIL("Cannot open variable file");
+    }
+    unlink(backup.c_str());
+    if (link(s.parameter_file.c_str(), backup.c_str()) != 0 && errno == ENOENT)
+        perror("link (updating variable file)");
+    CHECK(rename(fresh.c_str(), s.parameter_file.c_str()) != 0, "Cannot open variable file");
+    return INTERP_OK;
+}
+
+} // namespace ngc
