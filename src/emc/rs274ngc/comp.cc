@@ -13,7 +13,7 @@ namespace ngc
 
 int comp_off(Setup &s)
 {
-    flush_comp(s);
+    TRY(finish_comp(s));
     enqueue_comment(s, "interpreter: cutter radius compensation off");
     if (s.comp_on() && s.comp_radius > 0 && !s.comp_first_move) {
         // The machine stays at the compensated end; the program goes on from its own.

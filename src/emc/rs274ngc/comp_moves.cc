@@ -146,14 +146,14 @@ int straight_next(Setup &s, int g, const ArcPlane &plane, const EmcPose &end)
         TRY(move_end_and_flush(s, corner));
     } else if (beta > EPSILON) { // convex
         CHECK(g != G_0 && g != G_1, "Bug code not g0 or g1");
-        flush_comp(s);
+        TRY(finish_comp(s));
         if (g == G_0)
             enqueue_straight(s, true, with_point(s.current, plane, m), m.x - c.x, m.y - c.y);
         else
             enqueue_join(s, plane, p, m, end);
         flush_comp(s);
     } else { // nearly straight on
-        flush_comp(s);
+        TRY(finish_comp(s));
     }
     enqueue_straight(s, g == G_0, with_point(end, plane, e), n.x - p.x, n.y - p.y);
     arrive(s, plane, end, e);
@@ -257,11 +257,11 @@ int arc_next(Setup &s, int g, const ArcPlane &plane, const EmcPose &end)
         TRY(corner_before_arc(s, plane, arc, theta, beta, radius, &corner));
         TRY(move_end_and_flush(s, corner));
     } else if (beta > EPSILON) { // convex
-        flush_comp(s);
+        TRY(finish_comp(s));
         enqueue_join(s, plane, p, at(p, r, inside ? delta : delta + M_PI), end);
         flush_comp(s);
     } else { // tangent
-        flush_comp(s);
+        TRY(finish_comp(s));
     }
     enqueue_arc(s, with_point(end, plane, e), arc.centre, arc.turn, sweep);
     arrive(s, plane, end, e);

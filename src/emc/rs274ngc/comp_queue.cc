@@ -171,6 +171,12 @@ int move_end_and_flush(Setup &s, Point2 end)
     return INTERP_OK;
 }
 
+int finish_comp(Setup &s)
+{
+    if (s.queue->empty()) return INTERP_OK;
+    return move_end_and_flush(s, in_plane(s.current, arc_plane(s.plane)));
+}
+
 void enqueue_feed_rate(Setup &s, double rate)
 {
     if (!waits(s)) return s.canon.SET_FEED_RATE(rate);

@@ -220,7 +220,7 @@ int read_function_name(Setup &s, Function *function)
 
 int read_function(Setup &s, double *value)
 {
-    Function f;
+    Function f = F_ABS;
     int start = s.pos;
     TRY(read_function_name(s, &f));
     if (f == F_EXISTS) return read_exists(s, value);

@@ -18,8 +18,8 @@
 using namespace ngc;
 
 Setup::Setup(Canon &c)
-    : canon(c), queue(std::make_unique<CompQueue>()), nurbs(std::make_unique<Nurbs>()),
-      tools(CANON_POCKETS_MAX, tooldata_entry_init()), parameters(MAX_PARAMETER + 1, 0.0)
+    : canon(c), tools(CANON_POCKETS_MAX, tooldata_entry_init()), queue(std::make_unique<CompQueue>()),
+      nurbs(std::make_unique<Nurbs>()), parameters(MAX_PARAMETER + 1, 0.0)
 {
     for (auto &t : spindle_turning) t = CANON_STOPPED;
     for (auto &o : speed_override) o = true;
@@ -254,6 +254,8 @@ int Interp::reset()
     unwind(s);
     drop_comp(s);
     s.mdi = false;
+    s.raw[0] = s.text[0] = 0;
+    s.raw_length = 0;
     s.canon.ON_RESET();
     return INTERP_OK;
 }
@@ -429,6 +431,7 @@ int next_line(Setup &s, bool *have)
         if (sub_head) return INTERP_OK;
         if (s.percent_flag && s.source == 0) {
             CHECK(s.skipping_to_sub, "Failed to find sub 'O%s' before EOF", s.skipping.c_str());
+            TRY(take_line(s, line));
             s.canon.FINISH();
             return INTERP_ENDFILE;
         }

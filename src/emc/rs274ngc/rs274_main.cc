@@ -24,7 +24,6 @@
 
 #include "inifile.hh"
 #include "interp.hh"
-#include "kerf_paths.h"
 #include "printer.hh"
 #include "tooldata.h"
 
@@ -309,10 +308,20 @@ void default_tools()
     for (const char *line : lines) tooldata_read_entry(line);
 }
 
+// The folder above the one this program stands in.
+std::string install_root()
+{
+    char path[4096];
+    const ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
+    std::string text(path, n > 0 ? size_t(n) : 0);
+    for (int i = 0; i < 2; ++i) text.resize(text.rfind('/') == text.npos ? 0 : text.rfind('/'));
+    return text;
+}
+
 std::unique_ptr<Interp> make_interpreter(const std::string &plugin, Canon &canon)
 {
     if (!plugin.empty()) {
-        const std::string path = plugin[0] == '/' ? plugin : std::string(kerf_path(KERF_PATH_LIB)) + "/linuxcnc/" + plugin;
+        const std::string path = plugin[0] == '/' ? plugin : install_root() + "/lib/linuxcnc/" + plugin;
         if (void *library = dlopen(path.c_str(), RTLD_NOW)) {
             if (auto make = reinterpret_cast<makeInterp_t>(dlsym(library, "makeInterp"))) {
                 if (Interp *made = make(canon)) {

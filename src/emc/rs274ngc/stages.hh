@@ -170,8 +170,10 @@ void enqueue_wait_orient(Setup &s, int spindle, double timeout);
 void enqueue_coolant(Setup &s, bool mist, bool on);
 void enqueue_user_m(Setup &s, int num, double p, double q);
 void enqueue_m(Setup &s, int m); // M0 M1 M60
-/// Sends all that is held back; the pending move ends at the current point.
+/// Sends all that is held back as it stands.
 void flush_comp(Setup &s);
+/// The pending move ends at the current point, if it can without gouging; then all is sent.
+[[nodiscard]] int finish_comp(Setup &s);
 void drop_comp(Setup &s);
 void scale_comp(Setup &s, double factor);
 

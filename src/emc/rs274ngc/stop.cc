@@ -34,7 +34,7 @@ void look_for_percent(Setup &s)
 
 int program_end(Setup &s, int m)
 {
-    flush_comp(s);
+    TRY(finish_comp(s));
     nurbs_forget(s);
     const EmcPose absolute = absolute_position(s);
     if (!s.disable_auto_g54) {
@@ -102,21 +102,21 @@ int convert_stop(Setup &s, int m)
 {
     switch (m) {
     case 0:
-        flush_comp(s);
+        TRY(finish_comp(s));
         s.canon.PROGRAM_STOP();
         return INTERP_OK;
     case 1:
-        flush_comp(s);
+        TRY(finish_comp(s));
         s.canon.OPTIONAL_PROGRAM_STOP();
         return INTERP_OK;
     case 60:
-        flush_comp(s);
+        TRY(finish_comp(s));
         s.canon.PALLET_SHUTTLE();
         s.canon.PROGRAM_STOP();
         return INTERP_OK;
     case 99:
         if (s.loop_on_m99 && s.source == 0 && !s.mdi) {
-            flush_comp(s);
+            TRY(finish_comp(s));
             s.canon.FINISH();
             s.sources[0]->seek(0);
             s.sources[0]->line_number = 0;
