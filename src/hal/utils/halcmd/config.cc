@@ -193,7 +193,6 @@ struct NetState {
         if (hal_getref_s(&q) != 0) return;
         exists = true;
         type = q.sig.type;
-        if (!q.sig.writers && !q.sig.bidirs) return;
         hal_query_t pins = {};
         pins.name = name.c_str();
         hal_list_p_s(
