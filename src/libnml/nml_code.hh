@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// nml_code.hh - a message's fields to bytes and back: XDR (RFC 4506), big endian.
+//
+// Encoder and Decoder are visitors: a message class shows each of its fields as
+//     visitor(Field{name, attribute, doc}, member)
+// bool, char and 8-bit scalars take 4 bytes, long and 64-bit integers 8, char arrays are
+// counted byte strings, other arrays are their elements in a row. [any]
+#ifndef KERF_NML_CODE_HH
+#define KERF_NML_CODE_HH
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "emcpos.h"
+#include "nml.hh"
+
+namespace nml {
+
+struct Field {
+    const char *name;      // member, as in the manual
+    const char *attribute; // Python attribute or dict key, "" for none
+    const char *doc;       // meaning with unit
+};
+
+template <class T> constexpr bool is_scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+class Encoder {
+public:
+    template <class T> void operator()(const Field &, const T &v) { put(v); }
+    const std::vector<unsigned char> &bytes() const { return out_; }
+    void word(uint32_t w) { for (int s = 24; s >= 0; s -= 8) out_.push_back(static_cast<unsigned char>(w >> s)); }
+    void hyper(uint64_t w) { word(static_cast<uint32_t>(w >> 32)); word(static_cast<uint32_t>(w)); }
+
+    void put(double v) { uint64_t w; std::memcpy(&w, &v, 8); hyper(w); }
+    template <class T> std::enable_if_t<is_scalar<T> && !std::is_floating_point_v<T>> put(const T &v) {
+        if constexpr (std::is_enum_v<T> || sizeof(T) <= 4) word(static_cast<uint32_t>(static_cast<int64_t>(v)));
+        else hyper(static_cast<uint64_t>(v));
+    }
+    template <size_t N> void put(const char (&v)[N]) {
+        size_t n = strnlen(v, N);
+        word(static_cast<uint32_t>(n));
+        for (size_t i = 0; i < n; i++) out_.push_back(static_cast<unsigned char>(v[i]));
+        while (out_.size() % 4) out_.push_back(0);
+    }
+    template <class T, size_t N> void put(const T (&v)[N]) { for (const T &e : v) put(e); }
+    void put(const PmCartesian &p) { put(p.x); put(p.y); put(p.z); }
+    void put(const EmcPose &p) { put(p.tran); put(p.a); put(p.b); put(p.c); put(p.u); put(p.v); put(p.w); }
+    // A structure that shows its fields; if it is a status, its head goes first.
+    template <class T> auto put(const T &v) -> decltype(T::fields(*this, v)) {
+        if constexpr (std::is_base_of_v<RCS_STAT_MSG, T>) put_status(v);
+        T::fields(*this, v);
+    }
+    void put_status(const RCS_STAT_MSG &m) {
+        put(m.command_type); put(m.echo_serial_number); put(m.status); put(m._state);
+    }
+private:
+    std::vector<unsigned char> out_;
+};
+
+// Reads what Encoder wrote. Reading past the end or a string that does not fit sets
+// failed() and leaves zeros: bytes from the network are never trusted.
+class Decoder {
+public:
+    Decoder(const unsigned char *data, size_t size) : at_(data), end_(data + size) {}
+    bool failed() const { return failed_; }
+    template <class T> void operator()(const Field &, T &v) { get(v); }
+
+    uint32_t word() {
+        if (end_ - at_ < 4) { failed_ = true; at_ = end_; return 0; }
+        uint32_t w = uint32_t(at_[0]) << 24 | uint32_t(at_[1]) << 16 | uint32_t(at_[2]) << 8 | at_[3];
+        at_ += 4;
+        return w;
+    }
+    uint64_t hyper() { uint64_t h = word(); return h << 32 | word(); }
+
+    void get(double &v) { uint64_t w = hyper(); std::memcpy(&v, &w, 8); }
+    template <class T> std::enable_if_t<is_scalar<T> && !std::is_floating_point_v<T>> get(T &v) {
+        if constexpr (std::is_same_v<T, bool>) v = word() != 0;
+        else if constexpr (std::is_enum_v<T> || sizeof(T) <= 4) v = static_cast<T>(static_cast<int32_t>(word()));
+        else v = static_cast<T>(hyper());
+    }
+    template <size_t N> void get(char (&v)[N]) {
+        size_t n = word(), padded = (n + 3) & ~size_t(3);
+        std::memset(v, 0, N);
+        if (n >= N || padded > static_cast<size_t>(end_ - at_)) { failed_ = true; at_ = end_; return; }
+        std::memcpy(v, at_, n);
+        at_ += padded;
+    }
+    template <class T, size_t N> void get(T (&v)[N]) { for (T &e : v) get(e); }
+    void get(PmCartesian &p) { get(p.x); get(p.y); get(p.z); }
+    void get(EmcPose &p) { get(p.tran); get(p.a); get(p.b); get(p.c); get(p.u); get(p.v); get(p.w); }
+    template <class T> auto get(T &v) -> decltype(T::fields(*this, v)) {
+        if constexpr (std::is_base_of_v<RCS_STAT_MSG, T>) {
+            T fresh;
+            v._type = fresh._type;
+            v.size = fresh.size;
+            get_status(v);
+        }
+        T::fields(*this, v);
+    }
+    void get_status(RCS_STAT_MSG &m) { get(m.command_type); get(m.echo_serial_number); get(m.status); get(m._state); }
+private:
+    const unsigned char *at_, *end_;
+    bool failed_ = false;
+};
+
+// The entry of a message class in a MessageSet.
+template <class T> MessageType describe(const char *name) {
+    MessageType m{};
+    T sample;
+    m.type = sample._type;
+    m.name = name;
+    m.size = sizeof(T);
+    m.kind = std::is_base_of_v<RCS_CMD_MSG, T> ? Kind::command : std::is_base_of_v<RCS_STAT_MSG, T> ? Kind::status : Kind::plain;
+    m.encode = [](const NMLmsg &msg, Encoder &e) {
+        const T &t = static_cast<const T &>(msg);
+        if constexpr (std::is_base_of_v<RCS_CMD_MSG, T>) e.put(t.serial_number);
+        if constexpr (std::is_base_of_v<RCS_STAT_MSG, T>) e.put_status(t);
+        T::fields(e, t);
+    };
+    m.decode = [](NMLmsg &msg, Decoder &d) {
+        T &t = static_cast<T &>(msg);
+        if constexpr (std::is_base_of_v<RCS_CMD_MSG, T>) d.get(t.serial_number);
+        if constexpr (std::is_base_of_v<RCS_STAT_MSG, T>) d.get_status(t);
+        T::fields(d, t);
+    };
+    return m;
+}
+
+// A whole message as XDR; empty when its type is unknown.
+std::vector<unsigned char> encode_message(const MessageSet &set, const NMLmsg &msg);
+// Fills msg (room bytes) from XDR. False: unknown type, does not fit, malformed.
+bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room);
+
+} // namespace nml
+#endif
