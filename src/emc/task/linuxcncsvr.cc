@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// linuxcncsvr.cc - makes the NML buffers, goes into the background, serves them over TCP.
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "emc_args.hh"
+#include "inifile.hh"
+#include "kerf_clock.h"
+#include "messages.hh"
+#include "nml_server.hh"
+#include "rcs_print.hh"
+
+static volatile int stop = 0;
+static void on_signal(int) { stop = 1; }
+
+// The starting shell goes on when the buffers exist: this is called after that.
+static void go_into_background() {
+    fflush(nullptr);
+    for (int i = 0; i < 2; i++) {
+        pid_t pid = fork();
+        if (pid < 0) exit(1);
+        if (pid > 0) _exit(0);
+        if (i == 0) setsid();
+    }
+    signal(SIGHUP, SIG_IGN);
+    int null = open("/dev/null", O_RDONLY);
+    if (null >= 0) {
+        dup2(null, STDIN_FILENO);
+        if (null > 2) close(null);
+    }
+}
+
+int main(int argc, char **argv) {
+    EmcArgs args(argc, argv);
+    linuxcnc::IniFile ini;
+    if (!ini.open(args.ini_file)) return 1;
+    uint64_t debug = ini.findUIntV("DEBUG", "EMC", 0);
+    if (auto flags = ini.findUInt("RCS_DEBUG", "EMC")) set_rcs_print_flag(static_cast<uint32_t>(*flags));
+    else if (debug & (EMC_DEBUG_RCS | EMC_DEBUG_NML)) set_rcs_print_flag(PRINT_EVERYTHING);
+    max_rcs_errors_to_print = ini.findIntV("RCS_MAX_ERR", "EMC", -1);
+    if (debug & EMC_DEBUG_CONFIG)
+        rcs_print("linuxcncsvr: machine '%s' version '%s'\n", ini.findStringV("MACHINE", "EMC", "<unknown>").c_str(),
+                  ini.findStringV("VERSION", "EMC", "unknown").c_str());
+    std::string file = ini.findStringV("NML_FILE", "EMC", default_nml_config_file());
+
+    nml::Server server(emc_messages());
+    std::vector<std::unique_ptr<NML>> channels;
+    for (const char *name : {"emcCommand", "emcStatus", "emcError"}) {
+        std::unique_ptr<NML> channel;
+        for (int tries = 0; tries < 50; tries++) {
+            channel = std::make_unique<NML>(emc_messages(), name, "emcsvr", file.c_str());
+            if (channel->valid() || channel->status == CMS_CONFIG_ERROR) break; // a wrong file stays wrong
+            usleep(200'000); // wall time: what is in the way is another process that ends
+        }
+        if (!channel->valid()) {
+            rcs_print_error("can't make the %s buffer of %s\n", name, file.c_str());
+            return 1;
+        }
+        channels.push_back(std::move(channel));
+    }
+    go_into_background();
+    struct sigaction act = {};
+    act.sa_handler = on_signal;
+    sigaction(SIGINT, &act, nullptr);
+    sigaction(SIGTERM, &act, nullptr);
+    signal(SIGPIPE, SIG_IGN);
+    std::vector<nml::BufferLine> lines = nml::buffers_of(file);
+    for (auto &c : channels)
+        for (auto &l : lines)
+            if (l.name == c->buffer_name()) server.add(*c, l);
+    server.listen();
+    server.run(&stop);
+    return 0;
+}

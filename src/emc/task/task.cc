@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// task.cc - the cycle, start and end, stopping, status. What commands do: task_plan.cc; the
+// list: task_execute.cc.
+#include "task.hh"
+
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "kerf_clock.h"
+#include "rcs_print.hh"
+#include "task_text.hh"
+
+namespace {
+
+constexpr double CHANNEL_RETRY_S = 1.0, CHANNEL_PATIENCE_S = 10.0, MESSAGE_PATIENCE_S = 5.0;
+constexpr int64_t MOTION_PATIENCE_NS = 60'000'000'000; // wall time
+constexpr int64_t MS = 1'000'000;
+
+int64_t wall_ns() {
+    timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return t.tv_sec * 1'000'000'000LL + t.tv_nsec;
+}
+
+} // namespace
+
+Task::Task(std::string ini_file) : ini_file_(std::move(ini_file)), motion_(stat_), io_(stat_) {}
+
+Task::~Task() {
+    if (upload_fd_ >= 0) close(upload_fd_);
+}
+
+// ---- start and end ----
+
+bool Task::connect_channels() {
+    std::string file = ini_.findStringV("NML_FILE", "EMC", "");
+    const char *nml = file.empty() ? nullptr : file.c_str();
+    auto connect = [&](const char *buffer, std::unique_ptr<NML> *channel) {
+        int quiet = verbose_nml_error_messages;
+        verbose_nml_error_messages = 0;
+        for (double waited = 0;; waited += CHANNEL_RETRY_S) {
+            *channel = std::make_unique<NML>(emc_messages(), buffer, "emc", nml);
+            if ((*channel)->valid() || (*channel)->status == CMS_CONFIG_ERROR) break;
+            if (waited >= CHANNEL_PATIENCE_S) break;
+            kerf_clock_sleep_ns(static_cast<int64_t>(CHANNEL_RETRY_S * 1e9));
+        }
+        verbose_nml_error_messages = quiet;
+        if ((*channel)->valid()) return true;
+        rcs_print_error("can't get %s buffer\n", buffer);
+        return false;
+    };
+    return connect("emcCommand", &command_channel_) && connect("emcStatus", &status_channel_) && connect("emcError", &error_channel_);
+}
+
+bool Task::start() {
+    if (!ini_.open(ini_file_)) return false;
+    debug_ = static_cast<unsigned>(ini_.findUIntV("DEBUG", "EMC", 0));
+    stat_.debug = static_cast<int>(debug_);
+    if (auto flags = ini_.findUInt("RCS_DEBUG", "EMC")) set_rcs_print_flag(static_cast<uint32_t>(*flags));
+    else if (debug_ & (EMC_DEBUG_RCS | EMC_DEBUG_NML)) set_rcs_print_flag(PRINT_EVERYTHING);
+    if (auto dest = ini_.findMap<RCS_PRINT_DESTINATION_TYPE>({{"STDOUT", RCS_PRINT_TO_STDOUT}, {"STDERR", RCS_PRINT_TO_STDERR},
+            {"FILE", RCS_PRINT_TO_FILE}, {"LOGGER", RCS_PRINT_TO_LOGGER}, {"MSGBOX", RCS_PRINT_TO_MESSAGE_BOX}, {"NULL", RCS_PRINT_TO_NULL}},
+            "RCS_DEBUG_DEST", "EMC")) set_rcs_print_destination(*dest);
+    max_rcs_errors_to_print = ini_.findIntV("RCS_MAX_ERR", "EMC", -1);
+    if (debug_ & EMC_DEBUG_CONFIG)
+        rcs_print("task: machine '%s' version '%s'\n", ini_.findStringV("MACHINE", "EMC", "<unknown>").c_str(), ini_.findStringV("VERSION", "EMC", "unknown").c_str());
+    if (auto t = ini_.findReal("CYCLE_TIME", "TASK")) cycle_time_ = *t;
+    else rcs_print("[TASK] CYCLE_TIME not found in %s; using default %f\n", ini_file_.c_str(), cycle_time_);
+    if (int n = ini_.findIntV("INTERP_MAX_LEN", "TASK", 1000); n > 0) interp_max_len_ = static_cast<size_t>(n);
+    io_error_ = ini_.findStringV("IO_ERROR", "TASK", io_error_);
+
+    stat_.task.mode = EMC_TASK_MODE_MANUAL;
+    stat_.task.state = EMC_TASK_STATE_ESTOP;
+    stat_.task.execState = EMC_TASK_EXEC_DONE;
+    stat_.task.interpState = EMC_TASK_INTERP_IDLE;
+    stat_.task.programUnits = CANON_UNITS_MM;
+    stat_.task.optional_stop_state = stat_.task.block_delete_state = true;
+    for (int &c : stat_.task.activeGCodes) c = -1;
+    for (int &c : stat_.task.activeMCodes) c = -1;
+    copy_text(stat_.task.ini_filename, ini_file_.c_str());
+    for (auto &j : stat_.motion.joint) { j.minPositionLimit = -1; j.maxPositionLimit = 1; j.units = 1; j.inpos = 1; j.jointType = EMC_LINEAR; }
+    for (auto &a : stat_.motion.axis) { a.minPositionLimit = -1; a.maxPositionLimit = 1; }
+    for (auto &s : stat_.motion.spindle) { s.brake = 1; s.spindle_scale = 1; }
+
+    if (!io_.create(ini_)) return false;
+    if (!connect_channels()) return false;
+    if (!ini_pins_.create(ini_.findIntV("JOINTS", "KINS", 0))) {
+        rcs_print("can't make the HAL component inihal\n");
+        return false;
+    }
+    io_.init();
+
+    // The HAL files load motion after task has started: wait until its first cycle was seen.
+    // Each turn gives virtual time one millisecond and the rest of the machine some wall time.
+    int64_t patience = wall_ns() + MOTION_PATIENCE_NS;
+    while (!(motion_.attach(ini_) && motion_.alive())) {
+        if (wall_ns() > patience) {
+            rcs_print_error("can't connect to motion: no motion module was loaded, or its functions are in no running thread\n");
+            return false;
+        }
+        timespec nap{0, 300'000};
+        nanosleep(&nap, nullptr);
+        kerf_clock_sleep_ns(MS);
+        if (getppid() == 1 && access(ini_file_.c_str(), R_OK) != 0) return false;
+    }
+    if (load_settings(ini_, stat_, motion_, &settings_) != 0) {
+        rcs_print_error("can't initialize motion\n");
+        return false;
+    }
+    ini_pins_.show(settings_);
+
+    canon_settings_.tool_change_position = io_.tool_change_position;
+    canon_settings_.parameter_file = ini_.findStringV("PARAMETER_FILE", "RS274NGC", "");
+    canon_ = std::make_unique<TaskCanon>(stat_, list_, motion_.limits, canon_settings_);
+    canon_->source_line = [this] { return interp_ ? interp_->line() : 0; };
+    canon_->user_code_exists = [this](int n) { return user_codes_.exists(n); };
+    canon_->user_code_command = [this](int n, double p, double q) { return user_codes_.command(n, p, q); };
+    setenv("INI_FILE_NAME", ini_file_.c_str(), 1);
+    update_motion();
+    interp_ = std::make_unique<Interp>(*canon_);
+    interp_->set_loop_on_main_m99(true);
+    if (int r = plan_init(); r != 0) {
+        rcs_print_error("can't initialize interpreter\n");
+        return false;
+    }
+    user_codes_.scan(ini_, debug_);
+
+    motion_.abort();
+    all_spindles_off();
+    io_.estop_on();
+    motion_.disable();
+    io_.abort(EMC_ABORT_TASK_STATE_ESTOP);
+    motion_.unhome(-2);
+    motion_.set_mode(EMC_TRAJ_MODE_FREE);
+    update_motion();
+    publish();
+    return true;
+}
+
+void Task::run(const volatile int *stop) {
+    const int64_t period = static_cast<int64_t>(cycle_time_ * 1e9);
+    int64_t next = kerf_clock_now_ns() + period;
+    double least = 1e9, most = 0, total = 0;
+    unsigned excursions = 0;
+    const bool quiet = getenv("QUIET_TASK") != nullptr;
+    int64_t begin = kerf_clock_now_ns();
+    while (!*stop) {
+        eager_ = false;
+        cycle();
+        cycles_++;
+        int64_t now = kerf_clock_now_ns();
+        double took = static_cast<double>(now - begin) / 1e9;
+        begin = now;
+        least = std::min(least, took);
+        most = std::max(most, took);
+        total += took;
+        if (cycle_time_ > 0 && took > 10 * cycle_time_ && ++excursions <= 10 && !quiet) rcs_print("task: main loop took %.6f seconds\n", took);
+        if (!eager_ && period > 0) {
+            if (now < next) kerf_clock_sleep_until_ns(next);
+            now = kerf_clock_now_ns();
+            while (next <= now) next += period; // an overrun skips whole periods
+        }
+        io_.cycle();
+    }
+    double cycles = cycles_ ? static_cast<double>(cycles_) : 1;
+    rcs_print("task: %lu cycles, min=%.6f, max=%.6f, avg=%.6f, %u latency excursions (> %dx expected cycle time of %.6fs)\n", cycles_, least, most,
+              total / cycles, excursions, 10, cycle_time_);
+}
+
+void Task::shutdown() {
+    if (interp_) interp_->exit();
+    motion_.disable();
+    update_motion();
+    if (!settings_.position_file.empty()) motion_.save_positions(settings_.position_file);
+    tool_mmap_close();
+}
+
+// ---- one cycle ----
+
+void Task::cycle() {
+    stat_.task.taskbeat++;
+    ini_pins_.poll(settings_, motion_);
+    read_command();
+    plan();
+    execute();
+    update_motion();
+    watch_enable();
+    watch_estop();
+    watch_errors();
+    watch_program_error();
+    publish();
+}
+
+void Task::read_command() {
+    NMLTYPE type = command_channel_->read();
+    if (type <= 0) return;
+    command_ = AnyMessage(*command_channel_->get_address());
+    command_serial_ = static_cast<const RCS_CMD_MSG &>(*command_).serial_number;
+    plan_error_ = execute_error_ = false;
+}
+
+void Task::update_motion() {
+    std::string error;
+    motion_.update(&error);
+    if (!error.empty()) {
+        EMC_OPERATOR_ERROR m;
+        copy_text(m.error, error.c_str());
+        operator_message(m); // motion printed it already
+    }
+    stat_.motion.debug = static_cast<int>(debug_);
+    stat_.motion.traj.single_stepping = stepping_;
+    canon_->offsets_applied = motion_.external_offsets_applied();
+    canon_->offsets = motion_.external_offsets();
+}
+
+void Task::watch_enable() {
+    bool enabled = stat_.motion.traj.enabled;
+    if (was_enabled_ && !enabled) motion_.unhome(-2);
+    was_enabled_ = enabled;
+}
+
+void Task::watch_estop() {
+    if (!stat_.io.aux.estop) return;
+    if (stat_.motion.traj.enabled) {
+        motion_.disable();
+        abort_task();
+        io_.abort(EMC_ABORT_AUX_ESTOP);
+        all_spindles_off();
+        motion_.unhome(-2);
+        abort_mdi();
+        on_abort(EMC_ABORT_AUX_ESTOP);
+        synch();
+    }
+    if (stat_.io.coolant.mist) io_.mist(false);
+    if (stat_.io.coolant.flood) io_.flood(false);
+    for (int s = 0; s < stat_.motion.traj.spindles; s++)
+        if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
+}
+
+void Task::watch_errors() {
+    bool io_failed = stat_.io.status == RCS_ERROR;
+    if (io_failed && stat_.io.reason > 0) { // a soft fault: the program goes on
+        if (!soft_fault_shown_) rcs_print("M6: toolchanger soft fault=%d, reason=%d\n", stat_.io.fault, stat_.io.reason);
+        soft_fault_shown_ = true;
+        stat_.io.status = RCS_DONE;
+        io_failed = false;
+    }
+    if (stat_.motion.status != RCS_ERROR && !io_failed) return;
+    if (io_failed && stat_.io.reason < 0) {
+        char text[LINELEN];
+        snprintf(text, sizeof text, io_error_.c_str(), stat_.io.reason);
+        operator_error(text);
+    }
+    abort_task();
+    io_.abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
+    all_spindles_off();
+    abort_mdi();
+    clear_program();
+    on_abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
+}
+
+// A program that ended by an error has done all it was told before the error. Its spindles
+// and coolant go off when nobody takes over for half a second, or with the next command.
+void Task::watch_program_error() {
+    if (!error_stop_due_ || stat_.task.interpState != EMC_TASK_INTERP_IDLE || !idle() || stat_.motion.traj.queue > 0) {
+        error_stop_at_ = 0;
+        return;
+    }
+    int64_t now = kerf_clock_now_ns();
+    if (error_stop_at_ == 0) error_stop_at_ = now + 500 * MS;
+    bool taken_over = command_ && command_serial_ != stat_.echo_serial_number;
+    if (now < error_stop_at_ && !taken_over) return;
+    error_stop_due_ = false;
+    for (int s = 0; s < stat_.motion.traj.spindles; s++)
+        if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
+    if (stat_.io.coolant.mist) io_.mist(false);
+    if (stat_.io.coolant.flood) io_.flood(false);
+}
+
+bool Task::all_homed() const {
+    const EMC_TRAJ_STAT &t = stat_.motion.traj;
+    for (int j = 0; j < t.joints; j++)
+        if (!stat_.motion.joint[j].homed) return false;
+    return true;
+}
+
+bool Task::idle() const { return list_.empty() && !pending_.message && stat_.task.execState == EMC_TASK_EXEC_DONE; }
+
+void Task::publish() {
+    EMC_TASK_STAT &t = stat_.task;
+    const EMC_TRAJ_STAT &traj = stat_.motion.traj;
+
+    t.mode = traj.mode == EMC_TRAJ_MODE_COORD ? requested_mode_ == EMC_TASK_MODE_AUTO ? EMC_TASK_MODE_AUTO : EMC_TASK_MODE_MDI
+                                              : EMC_TASK_MODE_MANUAL;
+    t.state = stat_.io.aux.estop ? EMC_TASK_STATE_ESTOP : !traj.enabled ? EMC_TASK_STATE_ESTOP_RESET : EMC_TASK_STATE_ON;
+    bool on = t.state == EMC_TASK_STATE_ON;
+    if (was_on_ && !on) {
+        abort_task();
+        all_spindles_off();
+        io_.abort(EMC_ABORT_TASK_STATE_NOT_ON);
+        on_abort(EMC_ABORT_TASK_STATE_NOT_ON);
+    }
+    was_on_ = on;
+
+    if (traj.id > 0) t.motionLine = traj.id;
+    if (debug_ & EMC_DEBUG_MOTION_TIME && traj.id != last_motion_id_) {
+        int64_t now = kerf_clock_now_ns();
+        if (last_motion_id_ != 0) rcs_print("Motion id %d took %f seconds.\n", last_motion_id_, static_cast<double>(now - motion_id_since_) / 1e9);
+        motion_id_since_ = now;
+    }
+    last_motion_id_ = traj.id;
+    t.optional_stop_state = canon_->optional_stop;
+    t.block_delete_state = canon_->block_delete;
+    t.queuedMDIcommands = static_cast<int>(mdi_queue_.size());
+
+    bool busy = t.interpState != EMC_TASK_INTERP_IDLE;
+    bool from_tag = busy && t.mode == EMC_TASK_MODE_AUTO && Interp::active_modes(t.activeGCodes, t.activeMCodes, t.activeSettings, traj.tag);
+    if (!from_tag) {
+        interp_->active_g_codes(t.activeGCodes);
+        interp_->active_m_codes(t.activeMCodes);
+        interp_->active_settings(t.activeSettings);
+    }
+    if (busy && from_tag && traj.tag.filename[0]) copy_text(t.file, traj.tag.filename);
+    else copy_text(t.file, program_.c_str());
+
+    int serial = command_ ? command_serial_ : 0;
+    NMLTYPE type = command_.type();
+    stat_.echo_serial_number = t.echo_serial_number = serial;
+    stat_.command_type = t.command_type = type;
+    int status;
+    if (plan_error_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR || stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
+        status = RCS_ERROR;
+    else if (idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() && !busy)
+        status = RCS_DONE;
+    else
+        status = RCS_EXEC;
+    stat_.status = t.status = status;
+    status_channel_->write(stat_);
+}
+
+// ---- stopping ----
+
+void Task::set_exec(int state) {
+    if (stat_.task.execState == EMC_TASK_EXEC_WAITING_FOR_SYSTEM_CMD && state != EMC_TASK_EXEC_WAITING_FOR_SYSTEM_CMD) child_.interrupt();
+    if (state != EMC_TASK_EXEC_WAITING_FOR_DELAY) stat_.task.delayLeft = 0;
+    stat_.task.execState = state;
+}
+
+void Task::clear_program() {
+    list_.clear();
+    pending_ = {};
+    set_exec(EMC_TASK_EXEC_DONE);
+    stat_.task.interpState = EMC_TASK_INTERP_IDLE;
+}
+
+void Task::abort_task() {
+    motion_.abort();
+    clear_program();
+    EMC_TASK_STAT &t = stat_.task;
+    t.task_paused = 0;
+    t.motionLine = t.readLine = 0;
+    t.command[0] = 0;
+    t.callLevel = 0;
+    stepping_ = step_given_ = false;
+    wait_ = false;
+    start_line_ = 0;
+    error_stop_due_ = false;
+    list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+    interp_->close();
+    interp_->reset();
+}
+
+void Task::abort_mdi() {
+    if (mdi_continue_ || wait_) interp_->reset();
+    if (!mdi_queue_.empty()) rcs_print("mdi_execute_abort: dropping %zu queued MDI commands\n", mdi_queue_.size());
+    mdi_queue_.clear();
+    mdi_continue_ = mdi_active_ = false;
+    wait_ = false;
+    stat_.task.interpState = EMC_TASK_INTERP_IDLE;
+}
+
+void Task::all_spindles_off() {
+    for (int s = 0; s < stat_.motion.traj.spindles; s++) motion_.spindle_off(s);
+}
+
+void Task::on_abort(int reason, const char *text) {
+    int r = interp_->on_abort(reason, text);
+    if (r > INTERP_MIN_ERROR) operator_error(interp_->error_text(r));
+}
+
+// ---- messages to the operator ----
+
+int Task::operator_message(NMLmsg &m) {
+    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(MESSAGE_PATIENCE_S * 1e9);
+    while (error_channel_->get_space_available() < 2 * m.size) {
+        if (kerf_clock_now_ns() >= until) {
+            if (debug_ & EMC_DEBUG_TASK_ISSUE) rcs_print("operator message lost: nobody reads them\n");
+            return -1;
+        }
+        kerf_clock_sleep_ns(10 * MS);
+    }
+    return error_channel_->write(m);
+}
+
+void Task::operator_error(const char *text) {
+    printf("%s\n", text);
+    fflush(stdout);
+    EMC_OPERATOR_ERROR m;
+    copy_text(m.error, text);
+    operator_message(m);
+}
+
+void Task::operator_text(const char *text) {
+    EMC_OPERATOR_TEXT m;
+    copy_text(m.text, text);
+    operator_message(m);
+}
+
+void Task::operator_display(const char *text) {
+    EMC_OPERATOR_DISPLAY m;
+    copy_text(m.display, text);
+    operator_message(m);
+}

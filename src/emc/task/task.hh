@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// task.hh - the task controller: takes the operator's commands, runs programs, gives motion
+// and I/O their orders one after another, publishes the status.
+//
+// In:     commands (NML), canonical messages of the interpreter, motion and HAL status
+// Out:    motion commands, I/O, status and operator messages (NML)
+// Thread: [task], one loop: see Task::cycle
+// Source: task sheet
+#ifndef KERF_TASK_HH
+#define KERF_TASK_HH
+
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "accept.hh"
+#include "ini_settings.hh"
+#include "interp.hh"
+#include "interp_list.hh"
+#include "io_control.hh"
+#include "motion_link.hh"
+#include "task_canon.hh"
+#include "user_codes.hh"
+
+class Task {
+public:
+    explicit Task(std::string ini_file);
+    ~Task();
+
+    // Everything up to the first cycle; false with a message.
+    bool start();
+    // Cycles until `*stop` is set (by a signal handler).
+    void run(const volatile int *stop);
+    void shutdown();
+
+private:
+    // ---- the phases of a cycle ----
+    void cycle();
+    void read_command();
+    void plan();
+    void execute();
+    void update_motion();
+    void watch_enable();
+    void watch_estop();
+    void watch_errors();
+    void watch_program_error();
+    void publish();
+    bool connect_channels();
+
+    // ---- plan ----
+    int refuse(const NMLmsg &m, Situation s);
+    int do_command(const NMLmsg &m); // immediate
+    int set_mode(int mode);
+    int set_state(int state);
+    int plan_open(const EMC_TASK_PLAN_OPEN &m);
+    int plan_close();
+    int plan_run(int line);
+    int plan_step();
+    int plan_pause();
+    int plan_resume();
+    int plan_init();
+    int plan_execute(const char *text);
+    void read_ahead();
+    bool skip_line();
+    void finish_program();
+    void mdi_cycle();
+    int mdi_run(const char *text);
+    int mdi_result(int r);
+    void interp_failed(int code, bool executing);
+    void wait_and_synch();
+
+    // ---- execute ----
+    int issue(const NMLmsg &m);
+    int precondition(const NMLmsg &m) const;
+    int postcondition(const NMLmsg &m) const;
+    bool step_holds();
+    void take_next();
+    void issue_pending();
+    void wait_for(bool motion, bool io);
+    void wait_delay();
+    void wait_system_command();
+    void wait_orient();
+    void recover();
+    void set_exec(int state);
+    bool input_reached();
+
+    // ---- stopping ----
+    void abort_task();
+    void abort_mdi();
+    void all_spindles_off();
+    void on_abort(int reason, const char *text = "");
+    void clear_program();
+    void synch() { interp_->synch(); }
+
+    // ---- messages to the operator; printed too ----
+    int operator_message(NMLmsg &m);
+    void operator_error(const char *text);
+    void operator_text(const char *text);
+    void operator_display(const char *text);
+
+    bool all_homed() const;
+    bool idle() const; // nothing in the list, nothing pending, nothing being waited for
+    template <class T> const T &as(const NMLmsg &m) const { return static_cast<const T &>(m); }
+
+    std::string ini_file_;
+    linuxcnc::IniFile ini_;
+    EMC_STAT stat_;
+    InterpList list_;
+    MotionLink motion_;
+    IoControl io_;
+    Settings settings_;
+    IniPins ini_pins_;
+    CanonSettings canon_settings_;
+    std::unique_ptr<TaskCanon> canon_;
+    std::unique_ptr<Interp> interp_;
+    UserCodes user_codes_;
+    Child child_;
+    std::unique_ptr<NML> command_channel_, status_channel_, error_channel_;
+
+    AnyMessage command_;         // the last one read
+    int command_serial_ = 0;
+    bool plan_error_ = false, execute_error_ = false;
+    InterpList::Entry pending_;  // taken from the list, not yet issued
+    bool wait_ = false;          // a queue buster: no reading until all is done
+    bool synching_ = false;
+    int requested_mode_ = EMC_TASK_MODE_MANUAL;
+    int remembered_interp_ = EMC_TASK_INTERP_IDLE; // what PAUSE interrupted
+    int start_line_ = 0;
+    bool stepping_ = false, step_given_ = false;
+    int step_line_ = 0;
+    bool was_on_ = false, was_enabled_ = false;
+    bool eager_ = false;
+    int64_t delay_until_ = 0;    // ns
+    bool input_watched_ = false, input_armed_ = false;
+    EMC_AUX_INPUT_WAIT input_;
+    int64_t orient_until_ = 0;
+    bool error_stop_due_ = false; // a program ended by an error: its outputs are still on
+    int64_t error_stop_at_ = 0;
+    std::string program_;        // opened last
+    // MDI
+    std::deque<std::string> mdi_queue_;
+    bool mdi_continue_ = false;  // a called subroutine has more to do
+    bool mdi_active_ = false;
+    // upload of a program
+    std::string upload_name_;
+    int upload_fd_ = -1;
+    size_t upload_done_ = 0;
+
+    double cycle_time_ = 0.1;
+    size_t interp_max_len_ = 1000;
+    std::string io_error_ = "toolchanger error %d";
+    unsigned debug_ = 0;
+    bool soft_fault_shown_ = false;
+    int last_motion_id_ = 0;
+    int64_t motion_id_since_ = 0;
+    unsigned long cycles_ = 0;
+};
+
+#endif

@@ -1,0 +1,564 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// task_plan.cc - what commands do, reading ahead in a program, MDI.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "kerf_clock.h"
+#include "rcs_print.hh"
+#include "task.hh"
+#include "task_text.hh"
+
+void Task::plan() {
+    EMC_TASK_STAT &t = stat_.task;
+    if (wait_ && idle()) wait_ = false;
+    bool fresh = command_ && command_serial_ != stat_.echo_serial_number;
+    Situation s = situation(t);
+    bool took = false; // a command was done, which takes the place of reading ahead
+    if (fresh) {
+        const NMLmsg &m = *command_;
+        if (error_stop_due_) watch_program_error();
+        Answer a = accept(m._type, s);
+        if (a == Answer::manual) a = t.mode == EMC_TASK_MODE_MANUAL ? Answer::yes : Answer::ignore;
+        int r = 0;
+        switch (a) {
+        case Answer::yes:
+            r = do_command(m);
+            took = m._type != EMC_TASK_PLAN_STEP_TYPE;
+            break;
+        case Answer::queue:
+            list_.append(m, 0);
+            wait_and_synch();
+            break;
+        case Answer::ignore:
+            if (m._type == EMC_TASK_PLAN_RUN_TYPE && motion_.external_offsets_applied()) r = -1;
+            break;
+        default:
+            r = refuse(m, s);
+            break;
+        }
+        if (r != 0) plan_error_ = true;
+    }
+    switch (s) {
+    case Situation::auto_reading: if (!took) read_ahead(); break;
+    case Situation::auto_waiting: if (!took) finish_program(); break;
+    case Situation::mdi: mdi_cycle(); break;
+    default: break;
+    }
+}
+
+int Task::refuse(const NMLmsg &m, Situation s) {
+    const char *name = emc_symbol_lookup(m._type);
+    char text[LINELEN];
+    switch (s) {
+    case Situation::off:
+        snprintf(text, sizeof text, "command (%s) cannot be executed until the machine is out of E-stop and turned on", name);
+        break;
+    case Situation::manual: snprintf(text, sizeof text, "can't do that (%s:%d) in manual mode", name, m._type); break;
+    case Situation::auto_idle: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter idle", name); break;
+    case Situation::auto_reading: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter reading", name); break;
+    case Situation::auto_paused: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter paused", name); break;
+    case Situation::auto_waiting: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter waiting", name); break;
+    case Situation::mdi: snprintf(text, sizeof text, "can't do that (%s:%d) in MDI mode", name, m._type); break;
+    }
+    operator_error(text);
+    return -1;
+}
+
+void Task::wait_and_synch() {
+    wait_ = true;
+    list_.append(EMC_TASK_PLAN_SYNCH(), interp_->line());
+}
+
+// ---- commands that only the operator gives; the rest is shared with the list ----
+
+int Task::do_command(const NMLmsg &m) {
+    if (debug_ & EMC_DEBUG_TASK_ISSUE) rcs_print("Issuing %s -- \t (%d)\n", emc_symbol_lookup(m._type), command_serial_);
+    switch (m._type) {
+    case EMC_TASK_SET_MODE_TYPE: return set_mode(as<EMC_TASK_SET_MODE>(m).mode);
+    case EMC_TASK_SET_STATE_TYPE: return set_state(as<EMC_TASK_SET_STATE>(m).state);
+    case EMC_TASK_ABORT_TYPE:
+        {
+            bool program = stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE;
+            state_tag_t tag = stat_.motion.traj.tag;
+            abort_task();
+            motion_.traj_abort();
+            if (program) interp_->restore_from_tag(tag);
+            io_.abort(EMC_ABORT_TASK_ABORT);
+            all_spindles_off();
+            abort_mdi();
+            on_abort(EMC_ABORT_TASK_ABORT);
+        }
+        return 0;
+    case EMC_TASK_PLAN_OPEN_TYPE: return plan_open(as<EMC_TASK_PLAN_OPEN>(m));
+    case EMC_TASK_PLAN_CLOSE_TYPE: return plan_close();
+    case EMC_TASK_PLAN_RUN_TYPE: return plan_run(as<EMC_TASK_PLAN_RUN>(m).line);
+    case EMC_TASK_PLAN_STEP_TYPE: return plan_step();
+    case EMC_TASK_PLAN_RESUME_TYPE: return plan_resume();
+    case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
+    case EMC_TASK_PLAN_REVERSE_TYPE: return motion_.send(EMCMOT_REVERSE);
+    case EMC_TASK_PLAN_FORWARD_TYPE: return motion_.send(EMCMOT_FORWARD);
+    case EMC_TASK_PLAN_SET_OPTIONAL_STOP_TYPE: canon_->optional_stop = as<EMC_TASK_PLAN_SET_OPTIONAL_STOP>(m).state; return 0;
+    case EMC_TASK_PLAN_SET_BLOCK_DELETE_TYPE: canon_->block_delete = as<EMC_TASK_PLAN_SET_BLOCK_DELETE>(m).state; return 0;
+    case EMC_SET_DEBUG_TYPE:
+        debug_ = as<EMC_SET_DEBUG>(m).debug;
+        stat_.debug = static_cast<int>(debug_);
+        return motion_.set_debug(debug_);
+    case EMC_JOINT_SET_BACKLASH_TYPE: return motion_.set_joint_backlash(as<EMC_JOINT_SET_BACKLASH>(m).joint, as<EMC_JOINT_SET_BACKLASH>(m).backlash);
+    case EMC_JOINT_SET_HOMING_PARAMS_TYPE: return motion_.set_homing_params(as<EMC_JOINT_SET_HOMING_PARAMS>(m));
+    case EMC_JOINT_SET_FERROR_TYPE: return motion_.set_joint_ferror(as<EMC_JOINT_SET_FERROR>(m).joint, as<EMC_JOINT_SET_FERROR>(m).ferror);
+    case EMC_JOINT_SET_MIN_FERROR_TYPE:
+        return motion_.set_joint_min_ferror(as<EMC_JOINT_SET_MIN_FERROR>(m).joint, as<EMC_JOINT_SET_MIN_FERROR>(m).ferror);
+    case EMC_JOINT_SET_MIN_POSITION_LIMIT_TYPE:
+        return motion_.set_joint_min_limit(as<EMC_JOINT_SET_MIN_POSITION_LIMIT>(m).joint, as<EMC_JOINT_SET_MIN_POSITION_LIMIT>(m).limit);
+    case EMC_JOINT_SET_MAX_POSITION_LIMIT_TYPE:
+        return motion_.set_joint_max_limit(as<EMC_JOINT_SET_MAX_POSITION_LIMIT>(m).joint, as<EMC_JOINT_SET_MAX_POSITION_LIMIT>(m).limit);
+    case EMC_JOINT_HALT_TYPE: return motion_.jog_stop(as<EMC_JOINT_HALT>(m).joint, 1);
+    case EMC_JOINT_HOME_TYPE: return motion_.home(as<EMC_JOINT_HOME>(m).joint);
+    case EMC_JOINT_UNHOME_TYPE: return motion_.unhome(as<EMC_JOINT_UNHOME>(m).joint);
+    case EMC_JOINT_OVERRIDE_LIMITS_TYPE: return motion_.override_limits(as<EMC_JOINT_OVERRIDE_LIMITS>(m).joint);
+    case EMC_JOINT_LOAD_COMP_TYPE:
+        {
+            const EMC_JOINT_LOAD_COMP &c = as<EMC_JOINT_LOAD_COMP>(m);
+            return motion_.load_comp(c.joint, c.file, c.type);
+        }
+    case EMC_JOG_CONT_TYPE:
+        {
+            const EMC_JOG_CONT &j = as<EMC_JOG_CONT>(m);
+            return motion_.jog_cont(j.joint_or_axis, j.vel, j.jjogmode);
+        }
+    case EMC_JOG_INCR_TYPE:
+        {
+            const EMC_JOG_INCR &j = as<EMC_JOG_INCR>(m);
+            return motion_.jog_incr(j.joint_or_axis, j.incr, j.vel, j.jjogmode);
+        }
+    case EMC_JOG_ABS_TYPE:
+        {
+            const EMC_JOG_ABS &j = as<EMC_JOG_ABS>(m);
+            return motion_.jog_abs(j.joint_or_axis, j.pos, j.vel, j.jjogmode);
+        }
+    case EMC_JOG_STOP_TYPE: return motion_.jog_stop(as<EMC_JOG_STOP>(m).joint_or_axis, as<EMC_JOG_STOP>(m).jjogmode);
+    case EMC_TRAJ_SET_TELEOP_ENABLE_TYPE:
+        return motion_.set_mode(as<EMC_TRAJ_SET_TELEOP_ENABLE>(m).enable ? EMC_TRAJ_MODE_TELEOP : EMC_TRAJ_MODE_FREE);
+    case EMC_TRAJ_SET_SCALE_TYPE: return motion_.scale(EMCMOT_FEED_SCALE, as<EMC_TRAJ_SET_SCALE>(m).scale);
+    case EMC_TRAJ_SET_RAPID_SCALE_TYPE: return motion_.scale(EMCMOT_RAPID_SCALE, as<EMC_TRAJ_SET_RAPID_SCALE>(m).scale);
+    case EMC_TRAJ_SET_MAX_VELOCITY_TYPE: return motion_.set_max_velocity(as<EMC_TRAJ_SET_MAX_VELOCITY>(m).velocity);
+    case EMC_TRAJ_SET_SPINDLE_SCALE_TYPE:
+        return motion_.scale(EMCMOT_SPINDLE_SCALE, as<EMC_TRAJ_SET_SPINDLE_SCALE>(m).scale, as<EMC_TRAJ_SET_SPINDLE_SCALE>(m).spindle);
+    case EMC_TRAJ_PAUSE_TYPE: stat_.task.task_paused = 1; return motion_.send(EMCMOT_PAUSE);
+    case EMC_TRAJ_RESUME_TYPE: stat_.task.task_paused = 0; return motion_.send(EMCMOT_RESUME);
+    case EMC_TRAJ_ABORT_TYPE: return motion_.traj_abort();
+    case EMC_SPINDLE_INCREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_INCREASE, as<EMC_SPINDLE_INCREASE>(m).spindle);
+    case EMC_SPINDLE_DECREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_DECREASE, as<EMC_SPINDLE_DECREASE>(m).spindle);
+    case EMC_SPINDLE_CONSTANT_TYPE: return 0;
+    case EMC_NULL_TYPE: return 0;
+    default: return issue(m);
+    }
+}
+
+int Task::set_mode(int mode) {
+    EMC_TASK_STAT &t = stat_.task;
+    if (mode != t.mode && t.mode == EMC_TASK_MODE_AUTO && t.interpState != EMC_TASK_INTERP_IDLE) {
+        operator_error("Can't switch mode while mode is AUTO and interpreter is not IDLE");
+        return 0;
+    }
+    if (mode < EMC_TASK_MODE_MANUAL || mode > EMC_TASK_MODE_MDI) return -1;
+    if (mode == EMC_TASK_MODE_MANUAL && t.mode != EMC_TASK_MODE_MANUAL) {
+        abort_task();
+        abort_mdi();
+        t.currentLine = 0;
+        clear_program();
+        list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+    }
+    if (stat_.motion.jogging_active) {
+        rcs_print("Ignoring task mode change while jogging\n");
+        return 0;
+    }
+    if (mode == EMC_TASK_MODE_MANUAL) {
+        requested_mode_ = mode;
+        return motion_.set_mode(all_homed() ? EMC_TRAJ_MODE_TELEOP : EMC_TRAJ_MODE_FREE);
+    }
+    int r = motion_.set_mode(EMC_TRAJ_MODE_COORD);
+    abort_task();
+    synch();
+    requested_mode_ = mode;
+    return r;
+}
+
+int Task::set_state(int state) {
+    switch (state) {
+    case EMC_TASK_STATE_ON:
+        {
+            int r = motion_.enable();
+            io_.flood(false);
+            return r;
+        }
+    case EMC_TASK_STATE_OFF:
+        motion_.traj_abort();
+        all_spindles_off();
+        motion_.disable();
+        io_.abort(EMC_ABORT_TASK_STATE_OFF);
+        io_.flood(false);
+        abort_task();
+        abort_mdi();
+        motion_.unhome(-2);
+        on_abort(EMC_ABORT_TASK_STATE_OFF);
+        synch();
+        return 0;
+    case EMC_TASK_STATE_ESTOP_RESET:
+        io_.estop_off();
+        io_.flood(false);
+        abort_task();
+        abort_mdi();
+        io_.abort(EMC_ABORT_TASK_STATE_ESTOP_RESET);
+        all_spindles_off();
+        on_abort(EMC_ABORT_TASK_STATE_ESTOP_RESET);
+        synch();
+        return 0;
+    case EMC_TASK_STATE_ESTOP:
+        motion_.traj_abort();
+        all_spindles_off();
+        io_.estop_on();
+        motion_.disable();
+        io_.flood(false);
+        abort_task();
+        abort_mdi();
+        io_.abort(EMC_ABORT_TASK_STATE_ESTOP);
+        all_spindles_off();
+        motion_.unhome(-2);
+        on_abort(EMC_ABORT_TASK_STATE_ESTOP);
+        synch();
+        return 0;
+    default: return -1;
+    }
+}
+
+// ---- programs ----
+
+int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
+    std::string name = m.file;
+    if (m.remote_filesize > 0) { // comes in pieces from another machine
+        if (upload_fd_ < 0) {
+            const char *tmp = getenv("TMPDIR");
+            std::string base = name.substr(name.find_last_of('/') == std::string::npos ? 0 : name.find_last_of('/') + 1);
+            upload_name_ = std::string(tmp && *tmp ? tmp : "/tmp") + "/" + base + ".XXXXXX";
+            upload_fd_ = mkstemp(upload_name_.data());
+            upload_done_ = 0;
+            if (upload_fd_ < 0) {
+                operator_error(("can't open " + upload_name_).c_str());
+                return -1;
+            }
+        }
+        size_t n = std::min(m.remote_buffersize, sizeof m.remote_buffer);
+        if (write(upload_fd_, m.remote_buffer, n) != static_cast<ssize_t>(n)) {
+            close(upload_fd_);
+            unlink(upload_name_.c_str());
+            upload_fd_ = -1;
+            operator_error(("can't write " + upload_name_).c_str());
+            return -1;
+        }
+        upload_done_ += n;
+        if (upload_done_ < m.remote_filesize) return 0;
+        close(upload_fd_);
+        upload_fd_ = -1;
+        name = upload_name_;
+    }
+    EMC_TASK_STAT &t = stat_.task;
+    t.motionLine = t.currentLine = t.readLine = 0;
+    stat_.error_line = stat_.error_column = 0;
+    stat_.error_file[0] = stat_.error_fix[0] = 0;
+    int r = interp_->open(name.c_str());
+    if (r != INTERP_OK) {
+        interp_failed(r, false);
+        t.interpState = EMC_TASK_INTERP_IDLE;
+        error_stop_due_ = false;
+        operator_error(("can't open " + name).c_str());
+        return -1;
+    }
+    program_ = name;
+    copy_text(t.file, name.c_str());
+    return 0;
+}
+
+int Task::plan_close() {
+    int r = interp_->close();
+    if (!upload_name_.empty()) {
+        unlink(upload_name_.c_str());
+        upload_name_.clear();
+    }
+    if (r > INTERP_MIN_ERROR) {
+        operator_error("failed to close file");
+        return -1;
+    }
+    return 0;
+}
+
+int Task::plan_init() {
+    InterpOptions options;
+    options.ini_file = ini_file_;
+    options.task = true;
+    int r = interp_->init(options);
+    if (r > INTERP_MIN_ERROR) {
+        operator_error(interp_->error_text(r));
+        return r;
+    }
+    if (auto code = ini_.findString("RS274NGC_STARTUP_CODE", "RS274NGC"); code && !code->empty() && code->size() < LINELEN) {
+        do r = interp_->execute(r == INTERP_EXECUTE_FINISH ? nullptr : code->c_str());
+        while (r == INTERP_EXECUTE_FINISH && interp_->call_level() > 0);
+        if (r == INTERP_EXECUTE_FINISH) r = INTERP_OK;
+        if (r > INTERP_MIN_ERROR) operator_error(interp_->error_text(r));
+        return r;
+    }
+    return 0;
+}
+
+int Task::plan_run(int line) {
+    EMC_TASK_STAT &t = stat_.task;
+    if (!all_homed() && !settings_.no_force_homing) {
+        operator_error("Can't run a program when not homed");
+        return -1;
+    }
+    stepping_ = step_given_ = false;
+    error_stop_due_ = false;
+    if (!interp_->file_open()) {
+        if (program_.empty()) {
+            operator_error("No program is open");
+            return -1;
+        }
+        int r = interp_->open(program_.c_str());
+        if (r != INTERP_OK) {
+            interp_failed(r, false);
+            t.interpState = EMC_TASK_INTERP_IDLE;
+            error_stop_due_ = false;
+            operator_error(("can't open " + program_).c_str());
+            return -1;
+        }
+    }
+    start_line_ = line;
+    t.interpState = EMC_TASK_INTERP_READING;
+    t.task_paused = 0;
+    return 0;
+}
+
+int Task::plan_step() {
+    EMC_TASK_STAT &t = stat_.task;
+    switch (t.interpState) {
+    case EMC_TASK_INTERP_IDLE:
+        if (plan_run(0) != 0) return -1;
+        motion_.send(EMCMOT_PAUSE);
+        remembered_interp_ = EMC_TASK_INTERP_READING;
+        t.interpState = EMC_TASK_INTERP_PAUSED;
+        t.task_paused = 1;
+        return 0;
+    case EMC_TASK_INTERP_PAUSED:
+        stepping_ = true;
+        step_given_ = true;
+        if (stat_.motion.traj.paused && stat_.motion.traj.queue > 0) motion_.send(EMCMOT_STEP);
+        else t.interpState = remembered_interp_;
+        t.task_paused = 1;
+        return 0;
+    default:
+        stepping_ = true;
+        step_given_ = true;
+        return 0;
+    }
+}
+
+int Task::plan_pause() {
+    EMC_TASK_STAT &t = stat_.task;
+    int r = motion_.send(EMCMOT_PAUSE);
+    if (t.interpState != EMC_TASK_INTERP_PAUSED) remembered_interp_ = t.interpState;
+    t.interpState = EMC_TASK_INTERP_PAUSED;
+    t.task_paused = 1;
+    return r;
+}
+
+int Task::plan_resume() {
+    int r = motion_.send(EMCMOT_RESUME);
+    stat_.task.interpState = remembered_interp_;
+    stat_.task.task_paused = 0;
+    stepping_ = step_given_ = false;
+    return r;
+}
+
+// Says what went wrong; the program ends when all it asked for before has been done.
+void Task::interp_failed(int code, bool executing) {
+    stat_.task.interpreter_errcode = code;
+    const Fault &f = interp_->fault();
+    stat_.error_line = f.line;
+    stat_.error_column = f.column;
+    copy_text(stat_.error_file, f.file.c_str());
+    copy_text(stat_.error_fix, f.fix.c_str());
+    const char *text = interp_->error_text(code);
+    operator_error(*text ? text : "Unknown interpreter error");
+    if (f.line > 0 && !f.text.empty()) {
+        printf("%s\n", f.report().c_str());
+        fflush(stdout);
+    }
+    stat_.task.interpState = EMC_TASK_INTERP_WAITING;
+    error_stop_due_ = true;
+    if (executing) on_abort(EMC_ABORT_INTERPRETER_ERROR, text);
+}
+
+// Run from line: true while lines are only looked at. Their messages to the operator stay.
+bool Task::skip_line() {
+    if (start_line_ == 0) return false;
+    int line = interp_->line();
+    if (start_line_ > 0 && interp_->call_level() == 0 && line > start_line_) {
+        start_line_ = 0;
+        return false;
+    }
+    list_.drop_unless([](const InterpList::Entry &e) {
+        return e.message.type() == EMC_OPERATOR_ERROR_TYPE || e.message.type() == EMC_TASK_PLAN_SYNCH_TYPE;
+    });
+    EmcPose here = stat_.motion.traj.position;
+    double lin = stat_.motion.traj.linearUnits, ang = stat_.motion.traj.angularUnits, f = 1;
+    if (stat_.task.programUnits == CANON_UNITS_INCHES) f = 25.4;
+    if (stat_.task.programUnits == CANON_UNITS_CM) f = 10;
+    for (double *p : {&here.tran.x, &here.tran.y, &here.tran.z, &here.u, &here.v, &here.w}) *p /= lin * f;
+    for (double *p : {&here.a, &here.b, &here.c}) *p /= ang;
+    canon_->ON_RESET();
+    canon_->CANON_UPDATE_END_POINT(here);
+    if (start_line_ > 0 && interp_->call_level() == 0 && line + 1 == start_line_) {
+        synch();
+        start_line_ = 0;
+    }
+    return true;
+}
+
+void Task::read_ahead() {
+    EMC_TASK_STAT &t = stat_.task;
+    for (size_t lines = 0; lines < interp_max_len_; lines++) {
+        if (wait_ || list_.size() > interp_max_len_ || (lines > 0 && list_.size() > interp_max_len_ * 2 / 3)) return;
+        int r = interp_->read();
+        t.readLine = interp_->line();
+        copy_text(t.command, interp_->command());
+        list_.set_level(interp_->call_level());
+        if (r > INTERP_MIN_ERROR) {
+            interp_failed(r, false);
+            return;
+        }
+        if (r == INTERP_ENDFILE || r == INTERP_EXIT) {
+            t.interpState = EMC_TASK_INTERP_WAITING;
+            t.motionLine = t.readLine = 0;
+            return;
+        }
+        if (r == INTERP_OK) r = interp_->execute();
+        t.callLevel = interp_->call_level();
+        if (r > INTERP_MIN_ERROR) {
+            interp_failed(r, true);
+            return;
+        }
+        bool skipping = skip_line();
+        if (r == INTERP_EXECUTE_FINISH) {
+            wait_and_synch();
+        } else if (r == INTERP_EXIT || r == INTERP_ENDFILE) {
+            t.interpState = EMC_TASK_INTERP_WAITING;
+            if (r == INTERP_ENDFILE) t.motionLine = t.readLine = 0;
+            return;
+        }
+        if (skipping && t.interpState != EMC_TASK_INTERP_READING) return;
+    }
+}
+
+void Task::finish_program() {
+    EMC_TASK_STAT &t = stat_.task;
+    if (!idle() || stat_.motion.traj.queue > 0 || stat_.io.status != RCS_DONE) return;
+    if (interp_->file_open()) {
+        if (plan_close() != 0) plan_error_ = true;
+        list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+        return;
+    }
+    t.interpState = EMC_TASK_INTERP_IDLE;
+    t.readLine = 0;
+    start_line_ = 0;
+}
+
+// ---- MDI ----
+
+int Task::plan_execute(const char *text) {
+    EMC_TASK_STAT &t = stat_.task;
+    if (!all_homed() && !settings_.no_force_homing) {
+        operator_error("Can't issue MDI command when not homed");
+        return -1;
+    }
+    if (t.mode != EMC_TASK_MODE_MDI) {
+        operator_error("Must be in MDI mode to issue MDI command");
+        if (t.mode == EMC_TASK_MODE_MANUAL) list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+        return -1;
+    }
+    stepping_ = step_given_ = false;
+    if (!*text) return 0;
+    if (!mdi_queue_.empty() || wait_ || mdi_continue_) {
+        mdi_queue_.emplace_back(text);
+        return 0;
+    }
+    return mdi_run(text);
+}
+
+int Task::mdi_run(const char *text) {
+    EMC_TASK_STAT &t = stat_.task;
+    copy_text(t.command, text);
+    t.interpState = EMC_TASK_INTERP_READING;
+    mdi_active_ = true;
+    stat_.error_line = stat_.error_column = 0;
+    stat_.error_file[0] = stat_.error_fix[0] = 0;
+    list_.set_level(0);
+    return mdi_result(interp_->execute(text, 0));
+}
+
+int Task::mdi_result(int r) {
+    EMC_TASK_STAT &t = stat_.task;
+    t.callLevel = interp_->call_level();
+    mdi_continue_ = false;
+    if (r > INTERP_MIN_ERROR) {
+        t.interpreter_errcode = r;
+        const Fault &f = interp_->fault();
+        stat_.error_line = f.line;
+        stat_.error_column = f.column;
+        copy_text(stat_.error_file, f.file.c_str());
+        copy_text(stat_.error_fix, f.fix.c_str());
+        operator_error(interp_->error_text(r));
+        list_.clear();
+        abort_task();
+        io_.abort(EMC_ABORT_INTERPRETER_ERROR_MDI);
+        all_spindles_off();
+        abort_mdi();
+        on_abort(EMC_ABORT_INTERPRETER_ERROR_MDI, "interpreter error during MDI");
+        execute_error_ = true;
+        return -1;
+    }
+    if (r == INTERP_EXECUTE_FINISH) {
+        mdi_continue_ = interp_->call_level() > 0;
+        wait_and_synch();
+        return 0;
+    }
+    canon_->FINISH();
+    if (r == INTERP_OK) return 0;
+    t.interpreter_errcode = r;
+    return -1; // M2 by MDI: done, and reported as failed, as documented
+}
+
+void Task::mdi_cycle() {
+    EMC_TASK_STAT &t = stat_.task;
+    if (wait_) return;
+    if (mdi_continue_) {
+        if (idle() && mdi_result(interp_->execute(nullptr)) != 0) execute_error_ = true;
+        return;
+    }
+    if (!mdi_queue_.empty()) {
+        std::string next = mdi_queue_.front();
+        mdi_queue_.pop_front();
+        if (mdi_run(next.c_str()) != 0) execute_error_ = true;
+        return;
+    }
+    if (t.interpState != EMC_TASK_INTERP_IDLE && idle() && stat_.motion.traj.queue == 0 && stat_.io.status == RCS_DONE) {
+        t.interpState = EMC_TASK_INTERP_IDLE;
+        t.command[0] = 0;
+        mdi_active_ = false;
+    }
+}

@@ -1,0 +1,10 @@
+#!/bin/bash
+# The commands that task gives to motion for each program are those that were recorded.
+export KERF_CLOCK=virtual
+here=$PWD
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+cp mill.ini logger.hal tool.tbl record "$out"
+cd "$out" || exit 1
+PROGRAMS=$here/recorded linuxcnc -r mill.ini > log 2>&1 < /dev/null || tail -n 30 log
+"$here/compare" "$here/recorded" .
