@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// client.cc - see client.hh. Protocol: nml sheet, section 2.
+#include "client.hh"
+
+#include <algorithm>
+
+#include "kerf_clock.h"
+
+EmcClient::EmcClient(const std::string &nmlfile) {
+    const char *file = nmlfile.empty() ? nullptr : nmlfile.c_str();
+    command_ = std::make_unique<NML>(emc_messages(), "emcCommand", "xemc", file);
+    status_ = std::make_unique<NML>(emc_messages(), "emcStatus", "xemc", file);
+}
+
+bool EmcClient::send(RCS_CMD_MSG &m) {
+    if (command_->write(m, &serial_) != 0) return false;
+    return true;
+}
+
+// What the status says of the last command. An unchanged status says what it said before.
+EmcClient::Answer EmcClient::look() {
+    if (status_->peek() == EMC_STAT_TYPE) {
+        last_ = *status_->get<RCS_STAT_MSG>();
+        seen_ = true;
+    }
+    if (!seen_) return Answer::none;
+    int diff = last_.echo_serial_number - serial_;
+    if (diff > 0) return Answer::done;
+    if (diff < 0) return Answer::none;
+    if (last_.status == RCS_DONE) return Answer::done;
+    if (last_.status == RCS_ERROR) return Answer::error;
+    return Answer::received;
+}
+
+bool EmcClient::wait_received(double timeout_s, double poll_s) {
+    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout_s * 1e9);
+    for (;;) {
+        if (look() != Answer::none) return true;
+        int64_t now = kerf_clock_now_ns(), nap = static_cast<int64_t>(poll_s * 1e9);
+        if (timeout_s >= 0) {
+            if (now >= until) return false;
+            nap = std::min(nap, until - now);
+        }
+        kerf_clock_sleep_ns(nap);
+    }
+}
+
+int EmcClient::wait_done(double timeout_s, double poll_s) {
+    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout_s * 1e9);
+    for (;;) {
+        Answer a = look();
+        if (a == Answer::done) return RCS_DONE;
+        if (a == Answer::error) return RCS_ERROR;
+        int64_t now = kerf_clock_now_ns(), nap = static_cast<int64_t>(poll_s * 1e9);
+        if (timeout_s >= 0) {
+            if (now >= until) return -1;
+            nap = std::min(nap, until - now);
+        }
+        kerf_clock_sleep_ns(nap);
+    }
+}

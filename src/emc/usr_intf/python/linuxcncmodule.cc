@@ -1,0 +1,561 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// linuxcncmodule.cc - Python module linuxcnc: stat, command, error_channel, constants.
+// The other types: ini.cc, positionlogger.cc. Source: Python sheet.
+//
+// Attributes of stat come from the descriptions in messages.def: name, type and docstring.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include "client.hh"
+#include "kerf_paths.h"
+#include "module.hh"
+#include "rcs_print.hh"
+#include "task_text.hh"
+#include "tooldata.h"
+
+namespace py = pybind11;
+
+PyObject *linuxcnc_error = nullptr;
+
+void raise_error(const std::string &text) {
+    PyErr_SetString(linuxcnc_error, text.c_str());
+    throw py::error_already_set();
+}
+
+namespace {
+
+constexpr double RECEIVE_TIMEOUT_S = 5.0;
+
+std::string nml_file() {
+    py::object f = py::module_::import("linuxcnc").attr("nmlfile");
+    return f.is_none() ? "" : f.cast<std::string>();
+}
+
+// ---- values ----
+
+py::object to_python(const EmcPose &p) {
+    return py::make_tuple(p.tran.x, p.tran.y, p.tran.z, p.a, p.b, p.c, p.u, p.v, p.w);
+}
+py::object to_python(bool v) { return py::bool_(v); }
+py::object to_python(double v) { return py::float_(v); }
+template <class T> std::enable_if_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, py::object> to_python(T v) { return py::int_(v); }
+template <size_t N> py::object to_python(const char (&v)[N]) {
+    return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(v, static_cast<Py_ssize_t>(strnlen(v, N)), "replace"));
+}
+template <class T, size_t N> py::object to_python(const T (&v)[N]) {
+    py::tuple t(N);
+    for (size_t i = 0; i < N; i++) t[i] = to_python(v[i]);
+    return t;
+}
+
+// Fields of one structure as a dict.
+struct DictMaker {
+    py::dict d;
+    template <class T> void operator()(const nml::Field &f, const T &v) {
+        if constexpr (!std::is_base_of_v<NMLmsg, T>) if (*f.attribute) d[f.attribute] = to_python(v);
+    }
+};
+
+template <class T> py::dict to_dict(const T &s) {
+    DictMaker m;
+    T::fields(m, s);
+    return m.d;
+}
+
+template <class T, size_t N> py::tuple dicts(const T (&all)[N]) {
+    py::tuple t(N);
+    for (size_t i = 0; i < N; i++) t[i] = to_dict(all[i]);
+    return t;
+}
+
+// ---- stat ----
+
+PyTypeObject *tool_type = nullptr;
+
+py::object make_tool(const CANON_TOOL_TABLE &t) {
+    py::object o = py::reinterpret_steal<py::object>(PyStructSequence_New(tool_type));
+    int i = 0;
+    auto put = [&](PyObject *v) { PyStructSequence_SetItem(o.ptr(), i++, v); };
+    put(PyLong_FromLong(t.toolno));
+    for (double v : {t.offset.tran.x, t.offset.tran.y, t.offset.tran.z, t.offset.a, t.offset.b, t.offset.c, t.offset.u, t.offset.v, t.offset.w,
+                     t.diameter, t.frontangle, t.backangle})
+        put(PyFloat_FromDouble(v));
+    put(PyLong_FromLong(t.orientation));
+    return o;
+}
+
+void define_tool_type(py::module_ &m) {
+    static PyStructSequence_Field fields[] = {{"id", nullptr}, {"xoffset", nullptr}, {"yoffset", nullptr}, {"zoffset", nullptr}, {"aoffset", nullptr},
+        {"boffset", nullptr}, {"coffset", nullptr}, {"uoffset", nullptr}, {"voffset", nullptr}, {"woffset", nullptr}, {"diameter", nullptr},
+        {"frontangle", nullptr}, {"backangle", nullptr}, {"orientation", nullptr}, {nullptr, nullptr}};
+    static PyStructSequence_Desc desc = {"tool_result", "One entry of the tool table (machine units, degrees)", fields, 14};
+    tool_type = PyStructSequence_NewType(&desc);
+    m.attr("tool") = py::reinterpret_borrow<py::object>(reinterpret_cast<PyObject *>(tool_type));
+}
+
+enum class Tools { unknown, here, absent } tools = Tools::unknown;
+
+bool attach_tools() {
+    if (tools == Tools::unknown) {
+        tools = tool_mmap_user() == 0 ? Tools::here : Tools::absent;
+        if (tools == Tools::absent) {
+            printf("poll(): continuing without tool mmap data\n");
+            fflush(stdout);
+        }
+    }
+    return tools == Tools::here;
+}
+
+template <size_t N, class F> py::tuple per_joint(const EMC_JOINT_STAT (&j)[N], F f) {
+    py::tuple t(N);
+    for (size_t i = 0; i < N; i++) t[i] = f(j[i]);
+    return t;
+}
+
+// Gives `cls` a read-only property for each field with an attribute name.
+struct PropertyMaker {
+    py::class_<Stat> &cls;
+    const EMC_STAT &base;
+    template <class T> void operator()(const nml::Field &f, const T &member) {
+        if constexpr (std::is_base_of_v<NMLmsg, T>) {
+            T::fields(*this, member);
+        } else if constexpr (!std::is_base_of_v<NMLmsg, std::remove_extent_t<T>>) {
+            if (!*f.attribute) return;
+            std::ptrdiff_t at = reinterpret_cast<const char *>(&member) - reinterpret_cast<const char *>(&base);
+            cls.def_property_readonly(
+                f.attribute, [at](const Stat &s) { return to_python(*reinterpret_cast<const T *>(reinterpret_cast<const char *>(&s.data) + at)); }, f.doc);
+        }
+    }
+};
+
+void poll_stat(Stat &s) {
+    if (!s.channel->valid()) raise_error("emcStatusBuffer invalid err=" + std::to_string(s.channel->error_type));
+    if (s.channel->peek() == EMC_STAT_TYPE) s.data = *s.channel->get<EMC_STAT>();
+    s.polled = true;
+    attach_tools();
+}
+
+py::object tool_table(const Stat &s) {
+    if (!s.polled || tools != Tools::here) return py::tuple();
+    int last = tooldata_last_index_get();
+    py::tuple t(static_cast<size_t>(last + 1));
+    for (int i = 0; i <= last; i++) {
+        CANON_TOOL_TABLE rec = tooldata_entry_init();
+        tooldata_get(&rec, i);
+        t[static_cast<size_t>(i)] = make_tool(rec);
+    }
+    return t;
+}
+
+py::object tool_info(const Stat &s, int toolno) {
+    if (!s.polled || tools != Tools::here) throw py::value_error("toolinfo: NOT READY (initial poll reqd)\n");
+    if (toolno == 0) throw py::value_error("toolinfo: for tool in spindle: use linuxnc.stat.tool_table[0]");
+    CANON_TOOL_TABLE rec = tooldata_entry_init();
+    int idx = tooldata_find_index_for_tool(toolno);
+    if (idx < 0) throw py::value_error("toolinfo: NO tooldata for toolno=" + std::to_string(toolno));
+    tooldata_get(&rec, idx);
+    py::dict d;
+    d["toolno"] = rec.toolno;
+    d["pocketno"] = rec.pocketno;
+    d["diameter"] = rec.diameter;
+    d["frontangle"] = rec.frontangle;
+    d["backangle"] = rec.backangle;
+    d["orientation"] = rec.orientation;
+    d["xoffset"] = rec.offset.tran.x;
+    d["yoffset"] = rec.offset.tran.y;
+    d["zoffset"] = rec.offset.tran.z;
+    d["aoffset"] = rec.offset.a;
+    d["boffset"] = rec.offset.b;
+    d["coffset"] = rec.offset.c;
+    d["uoffset"] = rec.offset.u;
+    d["voffset"] = rec.offset.v;
+    d["woffset"] = rec.offset.w;
+    d["comment"] = to_python(rec.comment);
+    return d;
+}
+
+void define_stat(py::module_ &m) {
+    py::class_<Stat> cls(m, "stat", py::dynamic_attr(), "Status of the controller: a snapshot taken by poll()");
+    cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<Stat>(nml_file()); }));
+    cls.def("poll", &poll_stat, "Takes a new snapshot");
+    EMC_STAT sample;
+    PropertyMaker maker{cls, sample};
+    EMC_STAT::fields(maker, sample);
+    cls.def_property_readonly("state", [](const Stat &s) { return s.data.status; }, "RCS_DONE, RCS_EXEC or RCS_ERROR");
+    cls.def_property_readonly("echo_serial_number", [](const Stat &s) { return s.data.echo_serial_number; }, "serial number of the last command task has read");
+    cls.def_property_readonly("joint", [](const Stat &s) { return dicts(s.data.motion.joint); }, "one dict per joint");
+    cls.def_property_readonly("axis", [](const Stat &s) { return dicts(s.data.motion.axis); }, "one dict per axis, XYZABCUVW");
+    cls.def_property_readonly("spindle", [](const Stat &s) { return dicts(s.data.motion.spindle); }, "one dict per spindle");
+    cls.def_property_readonly("homed", [](const Stat &s) { return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::int_(int(j.homed)); }); },
+                              "0/1 per joint");
+    cls.def_property_readonly("limit", [](const Stat &s) {
+            return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) {
+                return py::int_((j.minHardLimit ? 1 : 0) | (j.maxHardLimit ? 2 : 0) | (j.minSoftLimit ? 4 : 0) | (j.maxSoftLimit ? 8 : 0));
+            });
+        }, "per joint: 1 min hard, 2 max hard, 4 min soft, 8 max soft");
+    cls.def_property_readonly("joint_position", [](const Stat &s) { return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::float_(j.output); }); },
+                              "commanded position per joint, machine units");
+    cls.def_property_readonly("joint_actual_position", [](const Stat &s) { return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::float_(j.input); }); },
+                              "position by feedback per joint, machine units");
+    cls.def_property_readonly("tool_table", &tool_table, "tools by index, 0 is the spindle; read when asked for");
+    cls.def("toolinfo", &tool_info, "Data of a tool number as a dict");
+}
+
+// ---- command ----
+
+class Command {
+public:
+    Command() : client(nml_file()) {}
+    EmcClient client;
+
+    // Sends and waits until task has read it.
+    void give(RCS_CMD_MSG &m) {
+        if (!client.send(m)) {
+            NML &c = client.command_channel();
+            raise_error("emcCommandBuffer invalid err=" + std::to_string(c.error_type));
+        }
+        py::gil_scoped_release go;
+        client.wait_received(RECEIVE_TIMEOUT_S);
+    }
+    template <class T> void plain() { T m; give(m); }
+};
+
+template <class M, class V, V M::*FIELD> void one_value(Command &c, V v) {
+    M m;
+    m.*FIELD = v;
+    c.give(m);
+}
+
+void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
+    c.plain<EMC_TASK_PLAN_CLOSE>();
+    if (kwargs && kwargs.size() > 0) throw py::type_error("program_open() takes no keyword arguments");
+    if (args.size() != 1) throw py::type_error("function takes exactly 1 argument (" + std::to_string(args.size()) + " given)");
+    std::string file;
+    if (py::isinstance<py::str>(args[0])) file = args[0].cast<std::string>();
+    else throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
+    if (file.size() >= LINELEN) throw py::value_error("File name limited to 254 characters");
+    EMC_TASK_PLAN_OPEN m;
+    copy_text(m.file, file.c_str());
+    if (c.client.remote()) {
+        std::ifstream in(file, std::ios::binary | std::ios::ate);
+        if (!in) {
+            PyErr_SetFromErrnoWithFilename(PyExc_OSError, file.c_str());
+            throw py::error_already_set();
+        }
+        m.remote_filesize = static_cast<unsigned long>(in.tellg());
+        in.seekg(0);
+        do {
+            in.read(m.remote_buffer, sizeof m.remote_buffer);
+            m.remote_buffersize = static_cast<unsigned long>(in.gcount());
+            c.give(m);
+        } while (in && m.remote_buffersize > 0);
+        return;
+    }
+    c.give(m);
+}
+
+void mdi(Command &c, const py::object &text) {
+    std::string line;
+    if (py::isinstance<py::str>(text) || py::isinstance<py::bytes>(text)) line = text.cast<std::string>();
+    else throw py::type_error("argument 1 must be str or bytes, not " + std::string(Py_TYPE(text.ptr())->tp_name));
+    EMC_TASK_PLAN_EXECUTE m;
+    if (line.size() >= sizeof m.command) throw py::value_error("MDI commands limited to 254 characters");
+    copy_text(m.command, line.c_str());
+    c.give(m);
+}
+
+void automatic(Command &c, const py::args &a) {
+    if (a.size() < 1 || a.size() > 2) throw py::type_error("function takes at least 1 and at most 2 arguments (" + std::to_string(a.size()) + " given)");
+    int op = a[0].cast<int>(), line = a.size() > 1 ? a[1].cast<int>() : 0;
+    if (op == 0 && a.size() == 2) {
+        EMC_TASK_PLAN_RUN m;
+        m.line = line;
+        c.give(m);
+        return;
+    }
+    switch (op) {
+    case 1: return c.plain<EMC_TASK_PLAN_PAUSE>();
+    case 2: return c.plain<EMC_TASK_PLAN_RESUME>();
+    case 3: return c.plain<EMC_TASK_PLAN_STEP>();
+    case 4: return c.plain<EMC_TASK_PLAN_REVERSE>();
+    case 5: return c.plain<EMC_TASK_PLAN_FORWARD>();
+    default: raise_error("Unexpected argument '" + std::to_string(op) + "' to command.auto");
+    }
+}
+
+void set_spindle(Command &c, const py::args &a) {
+    if (a.size() < 1 || a.size() > 4) throw py::type_error("function takes at least 1 and at most 4 arguments (" + std::to_string(a.size()) + " given)");
+    int dir = a[0].cast<int>();
+    double a1 = a.size() > 1 ? a[1].cast<double>() : 0;
+    int a2 = a.size() > 2 ? a[2].cast<int>() : 0, a3 = a.size() > 3 ? a[3].cast<int>() : 0;
+    switch (dir) {
+    case 1: case -1:
+        {
+            EMC_SPINDLE_ON m;
+            m.speed = dir * a1;
+            m.spindle = a2;
+            m.wait_for_spindle_at_speed = a3;
+            c.give(m);
+            return;
+        }
+    case 0: { EMC_SPINDLE_OFF m; m.spindle = static_cast<int>(a1); c.give(m); return; }
+    case 10: { EMC_SPINDLE_INCREASE m; m.spindle = static_cast<int>(a1); c.give(m); return; }
+    case 11: { EMC_SPINDLE_DECREASE m; m.spindle = static_cast<int>(a1); c.give(m); return; }
+    case 12: { EMC_SPINDLE_CONSTANT m; m.spindle = static_cast<int>(a1); c.give(m); return; }
+    default:
+        throw py::value_error("Spindle direction should be SPINDLE_FORWARD, SPINDLE_REVERSE, SPINDLE_OFF, SPINDLE_INCREASE, SPINDLE_DECREASE, or SPINDLE_CONSTANT");
+    }
+}
+
+void jog(Command &c, const py::args &a) {
+    if (a.size() < 3) throw py::type_error("function takes at least 3 arguments (" + std::to_string(a.size()) + " given)");
+    if (a.size() > 5) throw py::type_error("function takes at most 5 arguments (" + std::to_string(a.size()) + " given)");
+    int op = a[0].cast<int>(), jjogmode = a[1].cast<int>(), nr = a[2].cast<int>();
+    auto count = [&](size_t n, const char *what) {
+        if (a.size() != n)
+            throw py::type_error(std::string("jog(") + what + ", ...) takes " + std::to_string(n) + " arguments (" + std::to_string(a.size()) + " given)");
+    };
+    switch (op) {
+    case 0:
+        {
+            count(3, "JOG_STOP");
+            EMC_JOG_STOP m;
+            m.joint_or_axis = nr;
+            m.jjogmode = jjogmode;
+            c.give(m);
+            return;
+        }
+    case 1:
+        {
+            count(4, "JOG_CONTINUOUS");
+            EMC_JOG_CONT m;
+            m.joint_or_axis = nr;
+            m.jjogmode = jjogmode;
+            m.vel = a[3].cast<double>();
+            c.give(m);
+            return;
+        }
+    case 2:
+        {
+            count(5, "JOG_INCREMENT");
+            EMC_JOG_INCR m;
+            m.joint_or_axis = nr;
+            m.jjogmode = jjogmode;
+            m.vel = a[3].cast<double>();
+            m.incr = a[4].cast<double>();
+            c.give(m);
+            return;
+        }
+    default: throw py::type_error("jog() first argument must be JOG_xxx");
+    }
+}
+
+template <class ON, class OFF> void on_off(Command &c, int on, const char *what) {
+    if (on == 1) c.plain<ON>();
+    else if (on == 0) c.plain<OFF>();
+    else throw py::value_error(what);
+}
+
+template <class M, size_t N> void relay(Command &c, const char *text, char (M::*field)[N]) {
+    M m;
+    copy_text(m.*field, text);
+    c.give(m);
+}
+
+unsigned char octet(long v) {
+    if (v < 0) { PyErr_SetString(PyExc_OverflowError, "unsigned byte integer is less than minimum"); throw py::error_already_set(); }
+    if (v > 255) { PyErr_SetString(PyExc_OverflowError, "unsigned byte integer is greater than maximum"); throw py::error_already_set(); }
+    return static_cast<unsigned char>(v);
+}
+
+// pybind11 reports a failed cast as RuntimeError; an argument of a wrong type is a TypeError.
+template <class F> auto checked(F f) {
+    return [f](Command &c, const py::args &a) {
+        try {
+            f(c, a);
+        } catch (const py::cast_error &) {
+            throw py::type_error("an argument has a wrong type");
+        }
+    };
+}
+
+void define_command(py::module_ &m) {
+    py::class_<Command> cls(m, "command", py::dynamic_attr(), "Commands to the controller; each returns when task has read it");
+    cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<Command>(); }));
+    cls.def_property_readonly("serial", [](const Command &c) { return c.client.serial(); }, "serial number of the last command");
+    cls.def("abort", [](Command &c) { c.plain<EMC_TASK_ABORT>(); }, "Stops everything");
+    cls.def("auto", checked(automatic), "auto(AUTO_RUN, line) or auto(AUTO_PAUSE | AUTO_RESUME | AUTO_STEP | AUTO_REVERSE | AUTO_FORWARD)");
+    cls.def("brake", [](Command &c, int state, int spindle) {
+            if (state == 1) { EMC_SPINDLE_BRAKE_ENGAGE b; b.spindle = spindle; c.give(b); }
+            else if (state == 0) { EMC_SPINDLE_BRAKE_RELEASE b; b.spindle = spindle; c.give(b); }
+            else throw py::value_error("BRAKE should be BRAKE_ENGAGE or BRAKE_RELEASE");
+        }, py::arg("state"), py::arg("spindle") = 0);
+    cls.def("debug", &one_value<EMC_SET_DEBUG, unsigned, &EMC_SET_DEBUG::debug>);
+    cls.def("display_msg", [](Command &c, const char *s) { relay<EMC_OPERATOR_DISPLAY>(c, s, &EMC_OPERATOR_DISPLAY::display); });
+    cls.def("error_msg", [](Command &c, const char *s) { relay<EMC_OPERATOR_ERROR>(c, s, &EMC_OPERATOR_ERROR::error); });
+    cls.def("text_msg", [](Command &c, const char *s) { relay<EMC_OPERATOR_TEXT>(c, s, &EMC_OPERATOR_TEXT::text); });
+    cls.def("feedrate", &one_value<EMC_TRAJ_SET_SCALE, double, &EMC_TRAJ_SET_SCALE::scale>, "Feed override, 1.0 = 100 %");
+    cls.def("rapidrate", &one_value<EMC_TRAJ_SET_RAPID_SCALE, double, &EMC_TRAJ_SET_RAPID_SCALE::scale>, "Rapid override, 1.0 = 100 %");
+    cls.def("maxvel", &one_value<EMC_TRAJ_SET_MAX_VELOCITY, double, &EMC_TRAJ_SET_MAX_VELOCITY::velocity>, "Cap of the path velocity, machine units/s");
+    cls.def("spindleoverride", [](Command &c, double scale, int spindle) {
+            EMC_TRAJ_SET_SPINDLE_SCALE s;
+            s.scale = scale;
+            s.spindle = spindle;
+            c.give(s);
+        }, py::arg("scale"), py::arg("spindle") = 0, "Spindle override, 1.0 = 100 %");
+    cls.def("flood", [](Command &c, int on) { on_off<EMC_COOLANT_FLOOD_ON, EMC_COOLANT_FLOOD_OFF>(c, on, "FLOOD should be FLOOD_ON or FLOOD_OFF"); });
+    cls.def("mist", [](Command &c, int on) { on_off<EMC_COOLANT_MIST_ON, EMC_COOLANT_MIST_OFF>(c, on, "Mist should be MIST_ON or MIST_OFF"); });
+    cls.def("home", &one_value<EMC_JOINT_HOME, int, &EMC_JOINT_HOME::joint>, "Homes a joint, -1 all");
+    cls.def("unhome", &one_value<EMC_JOINT_UNHOME, int, &EMC_JOINT_UNHOME::joint>, "Unhomes a joint, -1 all, -2 those with volatile home");
+    cls.def("jog", checked(jog), "jog(JOG_STOP, jjogmode, nr), jog(JOG_CONTINUOUS, jjogmode, nr, vel), jog(JOG_INCREMENT, jjogmode, nr, vel, distance)");
+    cls.def("load_tool_table", [](Command &c) { c.plain<EMC_TOOL_LOAD_TOOL_TABLE>(); });
+    cls.def("mdi", &mdi, "Executes one line of G-code");
+    cls.def("mode", [](Command &c, int mode) {
+        if (mode < 1 || mode > 3) throw py::value_error("Mode should be MODE_MDI, MODE_MANUAL, or MODE_AUTO");
+        EMC_TASK_SET_MODE s;
+        s.mode = mode;
+        c.give(s);
+    });
+    cls.def("state", [](Command &c, int state) {
+        if (state < 1 || state > 4) throw py::value_error("Machine state should be STATE_ESTOP, STATE_ESTOP_RESET, STATE_ON, or STATE_OFF");
+        EMC_TASK_SET_STATE s;
+        s.state = state;
+        c.give(s);
+    });
+    cls.def("override_limits", [](Command &c) { c.plain<EMC_JOINT_OVERRIDE_LIMITS>(); });
+    cls.def("program_open", &program_open, "Opens a program file");
+    cls.def("reset_interpreter", [](Command &c) { c.plain<EMC_TASK_PLAN_INIT>(); });
+    cls.def("task_plan_synch", [](Command &c) { c.plain<EMC_TASK_PLAN_SYNCH>(); });
+    cls.def("set_adaptive_feed", [](Command &c, long on) { EMC_MOTION_ADAPTIVE s; s.status = octet(on); c.give(s); });
+    cls.def("set_feed_hold", [](Command &c, long on) { EMC_TRAJ_SET_FH_ENABLE s; s.mode = octet(on); c.give(s); });
+    cls.def("set_feed_override", [](Command &c, long on) { EMC_TRAJ_SET_FO_ENABLE s; s.mode = octet(on); c.give(s); });
+    cls.def("set_spindle_override", [](Command &c, long on, int spindle) {
+            EMC_TRAJ_SET_SO_ENABLE s;
+            s.mode = octet(on);
+            s.spindle = spindle;
+            c.give(s);
+        }, py::arg("on"), py::arg("spindle") = 0);
+    cls.def("set_analog_output", [](Command &c, long index, double value) {
+        EMC_MOTION_SET_AOUT s;
+        s.index = octet(index);
+        s.now = 1;
+        s.start = s.end = value;
+        c.give(s);
+    });
+    cls.def("set_digital_output", [](Command &c, long index, long value) {
+        EMC_MOTION_SET_DOUT s;
+        s.index = octet(index);
+        s.now = 1;
+        s.start = s.end = octet(value);
+        c.give(s);
+    });
+    cls.def("set_block_delete", [](Command &c, int on) { EMC_TASK_PLAN_SET_BLOCK_DELETE s; s.state = on != 0; c.give(s); });
+    cls.def("set_optional_stop", [](Command &c, int on) { EMC_TASK_PLAN_SET_OPTIONAL_STOP s; s.state = on != 0; c.give(s); });
+    cls.def("set_max_limit", [](Command &c, int joint, double limit) { EMC_JOINT_SET_MAX_POSITION_LIMIT s; s.joint = joint; s.limit = limit; c.give(s); });
+    cls.def("set_min_limit", [](Command &c, int joint, double limit) { EMC_JOINT_SET_MIN_POSITION_LIMIT s; s.joint = joint; s.limit = limit; c.give(s); });
+    cls.def("spindle", checked(set_spindle), "spindle(SPINDLE_FORWARD | SPINDLE_REVERSE, rpm[, spindle[, wait]]), spindle(SPINDLE_OFF | ...[, spindle])");
+    cls.def("teleop_enable", &one_value<EMC_TRAJ_SET_TELEOP_ENABLE, int, &EMC_TRAJ_SET_TELEOP_ENABLE::enable>);
+    cls.def("traj_mode", &one_value<EMC_TRAJ_SET_MODE, int, &EMC_TRAJ_SET_MODE::mode>);
+    cls.def("tool_offset", [](Command &c, int toolno, double z, double x, double diameter, double front, double back, int orientation) {
+        EMC_TOOL_SET_OFFSET s;
+        s.toolno = toolno;
+        s.offset.tran.z = z;
+        s.offset.tran.x = x;
+        s.diameter = diameter;
+        s.frontangle = front;
+        s.backangle = back;
+        s.orientation = orientation;
+        c.give(s);
+    });
+    cls.def("wait_complete", [](Command &c, double timeout) {
+            if (!c.client.status_channel().valid()) raise_error("emcStatusBuffer invalid err=" + std::to_string(c.client.status_channel().error_type));
+            py::gil_scoped_release go;
+            return c.client.wait_done(timeout);
+        }, py::arg("timeout") = 5.0, "Waits for the last command: RCS_DONE, RCS_ERROR, or -1 after timeout seconds");
+}
+
+// ---- error channel ----
+
+class ErrorChannel {
+public:
+    ErrorChannel() : channel(std::make_unique<NML>(emc_messages(), "emcError", "xemc", file().c_str())) {}
+    std::unique_ptr<NML> channel;
+
+    py::object poll() {
+        if (!channel->valid()) raise_error("Error buffer invalid");
+        NMLTYPE type = channel->read();
+        if (type == 0) return py::none();
+        py::object text;
+        switch (type) {
+        case NML_ERROR_TYPE_: text = to_python(channel->get<::NML_ERROR>()->error); break;
+        case NML_TEXT_TYPE: text = to_python(channel->get<NML_TEXT>()->text); break;
+        case NML_DISPLAY_TYPE: text = to_python(channel->get<NML_DISPLAY>()->display); break;
+        case EMC_OPERATOR_ERROR_TYPE: text = to_python(channel->get<EMC_OPERATOR_ERROR>()->error); break;
+        case EMC_OPERATOR_TEXT_TYPE: text = to_python(channel->get<EMC_OPERATOR_TEXT>()->text); break;
+        case EMC_OPERATOR_DISPLAY_TYPE: text = to_python(channel->get<EMC_OPERATOR_DISPLAY>()->display); break;
+        default: text = py::str("unrecognized error " + std::to_string(type)); break;
+        }
+        return py::make_tuple(type, text);
+    }
+private:
+    static std::string file() { std::string f = nml_file(); return f.empty() ? default_nml_config_file() : f; }
+    static constexpr NMLTYPE NML_ERROR_TYPE_ = 1;
+};
+
+void define_error_channel(py::module_ &m) {
+    py::class_<ErrorChannel> cls(m, "error_channel", py::dynamic_attr(), "Messages to the operator; each is given to one reader");
+    cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<ErrorChannel>(); }));
+    cls.def("poll", &ErrorChannel::poll, "The oldest message as (kind, text), or None");
+}
+
+void define_constants(py::module_ &m) {
+    const struct { const char *name; int value; } all[] = {
+        {"OPERATOR_ERROR", 11}, {"OPERATOR_TEXT", 12}, {"OPERATOR_DISPLAY", 13}, {"NML_ERROR", 1}, {"NML_TEXT", 2}, {"NML_DISPLAY", 3},
+        {"LINEAR", 1}, {"ANGULAR", 2}, {"INTERP_IDLE", 1}, {"INTERP_READING", 2}, {"INTERP_PAUSED", 3}, {"INTERP_WAITING", 4},
+        {"MODE_MANUAL", 1}, {"MODE_AUTO", 2}, {"MODE_MDI", 3}, {"STATE_ESTOP", 1}, {"STATE_ESTOP_RESET", 2}, {"STATE_OFF", 3}, {"STATE_ON", 4},
+        {"SPINDLE_FORWARD", 1}, {"SPINDLE_REVERSE", -1}, {"SPINDLE_OFF", 0}, {"SPINDLE_INCREASE", 10}, {"SPINDLE_DECREASE", 11}, {"SPINDLE_CONSTANT", 12},
+        {"MIST_ON", 1}, {"MIST_OFF", 0}, {"FLOOD_ON", 1}, {"FLOOD_OFF", 0}, {"BRAKE_ENGAGE", 1}, {"BRAKE_RELEASE", 0},
+        {"JOG_STOP", 0}, {"JOG_CONTINUOUS", 1}, {"JOG_INCREMENT", 2},
+        {"AUTO_RUN", 0}, {"AUTO_PAUSE", 1}, {"AUTO_RESUME", 2}, {"AUTO_STEP", 3}, {"AUTO_REVERSE", 4}, {"AUTO_FORWARD", 5},
+        {"TRAJ_MODE_FREE", 1}, {"TRAJ_MODE_COORD", 2}, {"TRAJ_MODE_TELEOP", 3},
+        {"MOTION_TYPE_TRAVERSE", 1}, {"MOTION_TYPE_FEED", 2}, {"MOTION_TYPE_ARC", 3}, {"MOTION_TYPE_TOOLCHANGE", 4}, {"MOTION_TYPE_PROBING", 5}, {"MOTION_TYPE_INDEXROTARY", 6},
+        {"KINEMATICS_IDENTITY", 1}, {"KINEMATICS_FORWARD_ONLY", 2}, {"KINEMATICS_INVERSE_ONLY", 3}, {"KINEMATICS_BOTH", 4},
+        {"DEBUG_CONFIG", 0x2}, {"DEBUG_VERSIONS", 0x8}, {"DEBUG_TASK_ISSUE", 0x10}, {"DEBUG_NML", 0x40}, {"DEBUG_MOTION_TIME", 0x80}, {"DEBUG_INTERP", 0x100},
+        {"DEBUG_RCS", 0x200}, {"DEBUG_INTERP_LIST", 0x800}, {"DEBUG_OWORD", 0x2000}, {"DEBUG_REMAP", 0x4000}, {"DEBUG_PYTHON", 0x8000}, {"DEBUG_STATE_TAGS", 0x80000},
+        {"EXEC_ERROR", 1}, {"EXEC_DONE", 2}, {"EXEC_WAITING_FOR_MOTION", 3}, {"EXEC_WAITING_FOR_MOTION_QUEUE", 4}, {"EXEC_WAITING_FOR_IO", 5},
+        {"EXEC_WAITING_FOR_MOTION_AND_IO", 7}, {"EXEC_WAITING_FOR_DELAY", 8}, {"EXEC_WAITING_FOR_SYSTEM_CMD", 9}, {"EXEC_WAITING_FOR_SPINDLE_ORIENTED", 10},
+        {"MAX_JOINTS", EMCMOT_MAX_JOINTS}, {"MAX_AXIS", EMCMOT_MAX_AXIS}, {"RCS_DONE", 1}, {"RCS_EXEC", 2}, {"RCS_ERROR", 3}};
+    for (auto &c : all) m.attr(c.name) = c.value;
+}
+
+} // namespace
+
+Stat::Stat(const std::string &nmlfile) : channel(std::make_unique<NML>(emc_messages(), "emcStatus", "xemc", nmlfile.empty() ? nullptr : nmlfile.c_str())) {
+    unsigned char *raw = reinterpret_cast<unsigned char *>(&data);
+    std::memset(raw, 0, sizeof data); // all attributes are zero before the first poll
+}
+
+PYBIND11_MODULE(linuxcnc, m) {
+    verbose_nml_error_messages = 0;
+    set_rcs_print_destination(RCS_PRINT_TO_NULL);
+    m.doc() = "Interface to a running controller";
+    linuxcnc_error = PyErr_NewException("linuxcnc.error", PyExc_RuntimeError, nullptr);
+    m.attr("error") = py::reinterpret_borrow<py::object>(linuxcnc_error);
+    m.attr("PREFIX") = kerf_path(KERF_PATH_HOME);
+    m.attr("SHARE") = std::string(kerf_path(KERF_PATH_HOME)) + "/share";
+    m.attr("nmlfile") = kerf_path(KERF_PATH_NMLFILE);
+    m.attr("version") = KERF_VERSION;
+    define_tool_type(m);
+    define_stat(m);
+    define_command(m);
+    define_error_channel(m);
+    define_ini(m);
+    define_positionlogger(m);
+    define_constants(m);
+}

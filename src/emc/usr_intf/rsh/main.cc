@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// main.cc - linuxcncrsh: a text protocol over TCP for driving the controller.
+#include <getopt.h>
+#include <signal.h>
+
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "session.hh"
+
+static volatile int stop = 0;
+static void on_signal(int) { stop = 1; }
+
+static void usage(FILE *to) {
+    fprintf(to,
+            "Usage: linuxcncrsh [options] [-- -ini FILE]\n"
+            "  -h, --help            this text\n"
+            "  -p, --port N          TCP port (5007)\n"
+            "  -n, --name NAME       server name (EMCNETSVR)\n"
+            "  -w, --connectpw PW    password of HELLO (EMC)\n"
+            "  -e, --enablepw PW     password of SET ENABLE (EMCTOO)\n"
+            "  -s, --sessions N      connections at a time, 0: any number (0)\n"
+            "  -d, --path LIST       where OPEN and LOAD_TOOL_TABLE look, separated by ':'\n"
+            "  -q, --quiet           no information on standard output\n"
+            "  -4, --ipv4            no IPv6\n");
+}
+
+int main(int argc, char **argv) {
+    rsh::Options o;
+    if (const char *home = getenv("HOME")) o.path = std::string(home) + "/nc_files";
+    static const option longs[] = {{"help", 0, nullptr, 'h'}, {"port", 1, nullptr, 'p'}, {"name", 1, nullptr, 'n'}, {"connectpw", 1, nullptr, 'w'},
+        {"enablepw", 1, nullptr, 'e'}, {"sessions", 1, nullptr, 's'}, {"path", 1, nullptr, 'd'}, {"quiet", 0, nullptr, 'q'}, {"ipv4", 0, nullptr, '4'},
+        {nullptr, 0, nullptr, 0}};
+    int c;
+    while ((c = getopt_long(argc, argv, "+hp:n:w:e:s:d:q4", longs, nullptr)) != -1) {
+        switch (c) {
+        case 'h': usage(stdout); return 0;
+        case 'p':
+            o.port = atoi(optarg);
+            if (o.port < 1 || o.port > 65534) {
+                fprintf(stderr, "linuxcncrsh: port '%s' must be a number from 1 to 65534\n", optarg);
+                return 1;
+            }
+            break;
+        case 'n': o.name = optarg; break;
+        case 'w': o.connect_password = optarg; break;
+        case 'e':
+            o.enable_password = optarg;
+            for (const char *p = optarg; *p; p++)
+                if (isspace(static_cast<unsigned char>(*p)) || iscntrl(static_cast<unsigned char>(*p))) {
+                    fprintf(stderr, "linuxcncrsh: the password of SET ENABLE must not contain blanks\n");
+                    return 1;
+                }
+            if (strcasecmp(optarg, "OFF") == 0) {
+                fprintf(stderr, "linuxcncrsh: the password of SET ENABLE must not be OFF\n");
+                return 1;
+            }
+            break;
+        case 's': o.sessions = atoi(optarg); break;
+        case 'd': o.path = optarg; break;
+        case 'q': o.quiet = true; break;
+        case '4': o.ipv4 = true; break;
+        default: usage(stderr); return 1;
+        }
+    }
+    for (int i = optind; i < argc; i++)
+        if (strcmp(argv[i], "-ini") == 0 && i + 1 < argc) o.ini_file = argv[++i];
+    struct sigaction act = {};
+    act.sa_handler = on_signal;
+    sigaction(SIGINT, &act, nullptr);
+    sigaction(SIGTERM, &act, nullptr);
+    signal(SIGPIPE, SIG_IGN);
+    rsh::Server server(o);
+    if (!server.start()) return 1;
+    server.run(&stop);
+    return 0;
+}

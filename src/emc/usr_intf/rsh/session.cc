@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// session.cc - linuxcncrsh: lines in, commands and replies out. Source: rsh sheet, B.2 to B.4.
+#include "session.hh"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+
+#include "kerf_clock.h"
+#include "rcs_print.hh"
+
+namespace rsh {
+
+constexpr int64_t MS = 1'000'000;
+
+std::string upper(std::string s) {
+    for (char &c : s) c = static_cast<char>(toupper(static_cast<unsigned char>(c)));
+    return s;
+}
+
+bool on_off(const std::string &word, bool *value) {
+    std::string w = upper(word);
+    if (w == "ON" || w == "1" || w == "TRUE" || w == "YES") { *value = true; return true; }
+    if (w == "OFF" || w == "0" || w == "FALSE" || w == "NO") { *value = false; return true; }
+    return false;
+}
+
+static Words split(const std::string &line) {
+    Words w;
+    size_t at = 0;
+    while ((at = line.find_first_not_of(" \t", at)) != std::string::npos) {
+        size_t end = line.find_first_of(" \t", at);
+        w.push_back(line.substr(at, end == std::string::npos ? end : end - at));
+        if (end == std::string::npos) break;
+        at = end;
+    }
+    return w;
+}
+
+// The line from its nth word on, blanks kept.
+static std::string from_word(const std::string &line, int n) {
+    size_t at = line.find_first_not_of(" \t");
+    for (int i = 0; i < n && at != std::string::npos; i++) {
+        at = line.find_first_of(" \t", at);
+        if (at != std::string::npos) at = line.find_first_not_of(" \t", at);
+    }
+    return at == std::string::npos ? "" : line.substr(at);
+}
+
+// ---- session ----
+
+Session::Session(Server &server, int f) : fd(f), client("Default-" + std::to_string(f)), server_(server) {}
+
+Session::~Session() { close(fd); }
+
+void Session::input(const char *data, size_t n) {
+    for (size_t i = 0; i < n; i++) {
+        if (data[i] == '\r' || data[i] == '\n') {
+            if (!partial_.empty()) lines_.push_back(partial_);
+            partial_.clear();
+        } else if (partial_.size() < 4096) {
+            partial_ += data[i];
+        }
+    }
+}
+
+void Session::reply(const std::string &text) {
+    if (timestamp) {
+        timeval tv;
+        gettimeofday(&tv, nullptr);
+        char t[64];
+        if (timestamp_epoch) {
+            snprintf(t, sizeof t, "%ld.%06ld: ", static_cast<long>(tv.tv_sec), static_cast<long>(tv.tv_usec));
+        } else {
+            tm parts;
+            localtime_r(&tv.tv_sec, &parts);
+            size_t n = strftime(t, sizeof t, "%Y-%m-%d %H:%M:%S", &parts);
+            snprintf(t + n, sizeof t - n, ".%06ld: ", static_cast<long>(tv.tv_usec));
+        }
+        output += t;
+    }
+    output += text + "\r\n";
+}
+
+void Session::next_line() {
+    std::string line = lines_.front();
+    lines_.pop_front();
+    Words w = split(line);
+    if (w.empty()) return;
+    std::string command = upper(w[0]);
+    auto echo_line = [&] { if (echo && linked) output += line + "\r\n"; };
+    if (command == "HELLO") return hello(w);
+    if (command == "GET" || command == "SET") {
+        if (w.size() < 2) return error("Too few arguments for '" + w[0] + "' command");
+        echo_line();
+        return command == "GET" ? get(w, line) : set(w, line);
+    }
+    if (command == "QUIT") {
+        echo_line();
+        enabled = false;
+        reply("QUIT ACK");
+        closing = true;
+        return;
+    }
+    if (command == "SHUTDOWN") {
+        echo_line();
+        if (!enabled) {
+            error("SHUTDOWN failed, not enabled");
+            return reply("SHUTDOWN NAK");
+        }
+        reply("SHUTDOWN ACK");
+        server_.shutdown = true;
+        return;
+    }
+    if (command == "HELP") {
+        echo_line();
+        return help(w);
+    }
+    error("Command '" + w[0] + "' not found");
+}
+
+void Session::hello(const Words &w) {
+    if (w.size() < 3) return error("Too few arguments for 'HELLO' command");
+    linked = enabled = false;
+    if (w[2].size() > 80) {
+        error("Client name too long, 80 characters at most");
+        return reply("HELLO NAK");
+    }
+    if (w[1] != server_.options.connect_password) return reply("HELLO NAK");
+    client = w[2];
+    version = w.size() > 3 ? w[3] : "1.1";
+    if (w.size() > 3 && version > server_.ini_version)
+        warning("Requested version '" + version + "' is newer than '" + server_.ini_version + "' from [EMC]VERSION");
+    linked = true;
+    server_.info("connected: " + client);
+    reply("HELLO ACK " + server_.options.name + " " + server_.ini_version);
+}
+
+void Session::get(const Words &w, const std::string &) {
+    const Subcommand *s = find_subcommand(upper(w[1]));
+    if (!s) {
+        error("Subcommand not found: " + upper(w[0]) + " " + w[1]);
+        return reply("GET NAK");
+    }
+    server_.refresh();
+    Words args(w.begin() + 2, w.end());
+    std::string name = s->name;
+    if (static_cast<int>(args.size()) < s->get_args) {
+        error("Too few arguments to GET " + name + ", have " + std::to_string(args.size()) + ", need " + std::to_string(s->get_args) + " or more");
+        return reply("GET " + name + " NAK");
+    }
+    if (!s->get || !s->get(*this, server_, args)) reply("GET " + name + " NAK");
+}
+
+void Session::set(const Words &w, const std::string &line) {
+    const Subcommand *s = find_subcommand(upper(w[1]));
+    if (!s) {
+        error("Subcommand not found: " + upper(w[0]) + " " + w[1]);
+        return reply("SET NAK");
+    }
+    server_.refresh();
+    std::string name = s->name;
+    Words args(w.begin() + 2, w.end());
+    if (s->remote)
+        for (auto &other : server_.sessions)
+            if (other.second->waiting())
+                return error("Cannot issue SET " + name + " command while SET " + other.second->waiting_for()->name + " command is still active");
+    auto nak = [&](const std::string &text) {
+        error(text);
+        reply("SET " + name + " NAK");
+    };
+    if (static_cast<int>(args.size()) < s->set_args)
+        return nak("Too few arguments to SET " + name + ", have " + std::to_string(args.size()) + ", need " + std::to_string(s->set_args) + " or more");
+    if (s->level >= Level::hello && !linked) return nak("A HELLO must be successfully negotiated for SET " + name);
+    if (s->level >= Level::enable && !enabled) return nak("Connection must be enabled for SET " + name);
+    if (s->level == Level::on && server_.stat.task.state != EMC_TASK_STATE_ON) return nak("Machine must be 'ON' for SET " + name);
+    Result r = s->set ? s->set(*this, server_, args, from_word(line, 2)) : Result::failed;
+    switch (r) {
+    case Result::failed: reply("SET " + name + " NAK"); break;
+    case Result::done: if (verbose) reply("SET " + name + " ACK"); break;
+    case Result::sent:
+        waiting_ = s;
+        waiting_name_ = name;
+        serial_ = server_.client->serial();
+        started_ = kerf_clock_now_ns();
+        interval_ = MS;
+        next_poll_ = started_ + interval_;
+        break;
+    }
+}
+
+void Session::finish_wait(int status) {
+    std::string name = waiting_name_;
+    waiting_ = nullptr;
+    if (status == RCS_ERROR) reply("SET " + name + " NAK");
+    else if (verbose) reply("SET " + name + " ACK");
+}
+
+void Session::poll_waiting() {
+    int64_t now = kerf_clock_now_ns();
+    if (!waiting_ || now < next_poll_) return;
+    server_.refresh();
+    int diff = server_.stat.echo_serial_number - serial_;
+    int status = server_.stat.status;
+    if (diff > 0) return finish_wait(RCS_DONE);
+    if (diff == 0 && (!wait_done || status == RCS_DONE || status == RCS_ERROR)) return finish_wait(status);
+    if (timeout_s > 0 && static_cast<double>(now - started_) > timeout_s * 1e9) {
+        error("command 'SET " + waiting_name_ + "' timed out");
+        return finish_wait(status);
+    }
+    interval_ = std::min<int64_t>(interval_ * 2, 100 * MS);
+    next_poll_ = now + interval_;
+}
+
+void Session::help(const Words &w) {
+    std::string what = w.size() > 1 ? upper(w[1]) : "";
+    auto list = [&](bool set) {
+        static const struct { Level level; const char *title; } groups[] = {{Level::none, "Always:"}, {Level::hello, "After HELLO:"},
+            {Level::enable, "After SET ENABLE:"}, {Level::on, "With the machine on:"}};
+        for (auto &g : groups) {
+            if (set) reply(std::string("  ") + g.title);
+            for (const Subcommand &s : subcommands())
+                if (s.level == g.level && (set ? s.set != nullptr : s.get != nullptr)) reply(std::string("    ") + s.name + (*s.usage ? std::string(" ") + s.usage : ""));
+        }
+    };
+    if (what.empty()) {
+        reply("Commands:");
+        for (const char *t : {"  HELLO <password> <client> [version]", "  GET <subcommand> [arguments]", "  SET <subcommand> [arguments]", "  QUIT", "  SHUTDOWN",
+                              "  HELP [command]"}) reply(t);
+    } else if (what == "HELLO") {
+        reply("HELLO <password> <client> [version]");
+        reply("  Links this connection; needed for most SET commands.");
+    } else if (what == "GET") {
+        reply("GET <subcommand> [arguments]");
+        list(false);
+    } else if (what == "SET") {
+        reply("SET <subcommand> [arguments]");
+        list(true);
+    } else if (what == "QUIT") {
+        reply("QUIT");
+        reply("  Ends this connection.");
+    } else if (what == "SHUTDOWN") {
+        reply("SHUTDOWN");
+        reply("  Ends the server; the connection must be enabled.");
+    } else if (what == "HELP") {
+        reply("HELP [command]");
+    } else {
+        error(w[1] + " is not a valid command. (" + what + ")");
+    }
+}
+
+// ---- server ----
+
+void Server::info(const std::string &text) const {
+    if (!options.quiet) {
+        printf("linuxcncrsh: %s\n", text.c_str());
+        fflush(stdout);
+    }
+}
+
+void Server::refresh() {
+    if (client->status_channel().peek() == EMC_STAT_TYPE) stat = *client->status_channel().get<EMC_STAT>();
+}
+
+void Server::sleep_heartbeats(double n) { kerf_clock_sleep_ns(static_cast<int64_t>(n * servo_period_s_ * 1e9)); }
+
+void Server::read_messages() {
+    for (;;) {
+        switch (errors->read()) {
+        case 1: // NML_ERROR, whose type name is taken
+            error_text.emplace_back(errors->get<::NML_ERROR>()->error); break;
+        case NML_TEXT_TYPE: operator_text.emplace_back(errors->get<NML_TEXT>()->text); break;
+        case NML_DISPLAY_TYPE: operator_display.emplace_back(errors->get<NML_DISPLAY>()->display); break;
+        case EMC_OPERATOR_ERROR_TYPE: error_text.emplace_back(errors->get<EMC_OPERATOR_ERROR>()->error); break;
+        case EMC_OPERATOR_TEXT_TYPE: operator_text.emplace_back(errors->get<EMC_OPERATOR_TEXT>()->text); break;
+        case EMC_OPERATOR_DISPLAY_TYPE: operator_display.emplace_back(errors->get<EMC_OPERATOR_DISPLAY>()->display); break;
+        default: return;
+        }
+    }
+}
+
+bool Server::start() {
+    if (!ini.open(options.ini_file)) return false;
+    ini_version = ini.findStringV("VERSION", "EMC", "1.1");
+    servo_period_s_ = ini.findRealV("SERVO_PERIOD", "EMCMOT", 1e7) * 1e-9;
+    std::string nml = ini.findStringV("NML_FILE", "EMC", "");
+    verbose_nml_error_messages = 0;
+    for (int waited = 0;; waited++) {
+        client = std::make_unique<EmcClient>(nml);
+        errors = std::make_unique<NML>(emc_messages(), "emcError", "xemc", nml.empty() ? nullptr : nml.c_str());
+        if (client->valid() && errors->valid()) break;
+        if (waited >= 10) {
+            fprintf(stderr, "linuxcncrsh: can't connect to emc\n");
+            return false;
+        }
+        kerf_clock_sleep_ns(1000 * MS);
+    }
+    int one = 1, zero = 0;
+    if (!options.ipv4) {
+        listener_ = socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+        if (listener_ >= 0) {
+            sockaddr_in6 at{};
+            at.sin6_family = AF_INET6;
+            at.sin6_port = htons(static_cast<uint16_t>(options.port));
+            at.sin6_addr = in6addr_any;
+            setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
+            setsockopt(listener_, IPPROTO_IPV6, IPV6_V6ONLY, &zero, sizeof zero);
+            if (bind(listener_, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0) {
+                close(listener_);
+                listener_ = -1;
+            }
+        }
+    }
+    if (listener_ < 0) {
+        listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+        sockaddr_in at{};
+        at.sin_family = AF_INET;
+        at.sin_port = htons(static_cast<uint16_t>(options.port));
+        setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
+        if (bind(listener_, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0) {
+            fprintf(stderr, "linuxcncrsh: port %d: %s\n", options.port, strerror(errno));
+            return false;
+        }
+    }
+    if (listen(listener_, 16) != 0) return false;
+    info("listening on port " + std::to_string(options.port));
+    return true;
+}
+
+void Server::run(const volatile int *stop) {
+    while (!*stop) {
+        std::vector<pollfd> fds{{listener_, POLLIN, 0}};
+        std::vector<int> ids;
+        int64_t timeout = 200 * MS, now = kerf_clock_now_ns();
+        for (auto &s : sessions) {
+            short events = 0;
+            if (!s.second->input_ended) events |= POLLIN | POLLPRI;
+            if (!s.second->output.empty()) events |= POLLOUT;
+            fds.push_back({s.first, events, 0});
+            ids.push_back(s.first);
+            if (s.second->waiting()) timeout = std::min(timeout, std::max<int64_t>(0, s.second->next_poll_ns() - now));
+            else if (s.second->has_line()) timeout = 0;
+        }
+        kerf_clock_poll(fds.data(), fds.size(), timeout);
+        for (size_t i = 0; i < ids.size(); i++) {
+            Session &s = *sessions[ids[i]];
+            short ev = fds[i + 1].revents;
+            char buf[4096];
+            if (ev & POLLPRI) (void)!recv(s.fd, buf, sizeof buf, MSG_OOB);
+            if (ev & (POLLIN | POLLHUP | POLLERR)) {
+                ssize_t n = recv(s.fd, buf, sizeof buf, 0);
+                if (n > 0) s.input(buf, static_cast<size_t>(n));
+                else if (n == 0) s.input_ended = true;
+                else if (errno != EAGAIN && errno != EINTR) s.closing = true, s.output.clear();
+            }
+        }
+        if (fds[0].revents & POLLIN) {
+            int fd = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+            if (fd >= 0 && options.sessions > 0 && static_cast<int>(sessions.size()) >= options.sessions) {
+                close(fd);
+            } else if (fd >= 0) {
+                int one = 1;
+                setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+                sessions[fd] = std::make_unique<Session>(*this, fd);
+            }
+        }
+        for (auto &it : sessions) {
+            Session &s = *it.second;
+            if (s.waiting()) s.poll_waiting();
+            if (!s.waiting() && !s.closing && !shutdown && s.has_line()) s.next_line();
+            if (s.input_ended && !s.waiting() && !s.has_line()) s.closing = true;
+        }
+        for (auto it = sessions.begin(); it != sessions.end();) {
+            Session &s = *it->second;
+            if (!s.output.empty()) {
+                ssize_t n = send(s.fd, s.output.data(), s.output.size(), MSG_NOSIGNAL);
+                if (n > 0) s.output.erase(0, static_cast<size_t>(n));
+                else if (n < 0 && errno != EAGAIN && errno != EINTR) s.output.clear(), s.closing = true;
+            }
+            if ((s.closing || shutdown) && s.output.empty()) it = sessions.erase(it);
+            else ++it;
+        }
+        if (shutdown && sessions.empty()) break;
+    }
+    sessions.clear();
+    close(listener_);
+}
+
+} // namespace rsh

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+CLIENT_SOURCES := src/emc/usr_intf/client.cc src/emc/nml/messages.cc
+$(eval $(call pymodule,linuxcnc,$(addprefix src/emc/usr_intf/python/,linuxcncmodule.cc ini.cc positionlogger.cc) $(CLIENT_SOURCES), \
+    nml linuxcncini tooldata linuxcnchal,-Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf -fvisibility=hidden))
+$(eval $(call program,halui,src/emc/usr_intf/halui/halui.cc src/emc/nml/emc_args.cc $(CLIENT_SOURCES),nml linuxcncini tooldata linuxcnchal, \
+    -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
+$(eval $(call program,linuxcncrsh,$(addprefix src/emc/usr_intf/rsh/,main.cc session.cc subcommands.cc) $(CLIENT_SOURCES),nml linuxcncini linuxcnchal, \
+    -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
