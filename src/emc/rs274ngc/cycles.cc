@@ -126,6 +126,9 @@ int tap(Cycle &c, bool left)
     CHECK(s.spindle_turning[spindle] != in, "Spindle turning %s in %s", left ? "clockwise" : "counterclockwise",
           name);
     const bool feed_override = s.feed_override, speed_override = s.speed_override[spindle];
+    // What the machine itself says: in a controller it lags behind the program.
+    const bool feed_was_on = s.canon.GET_EXTERNAL_FEED_OVERRIDE_ENABLE();
+    const bool speed_was_on = s.canon.GET_EXTERNAL_SPINDLE_OVERRIDE_ENABLE(spindle);
     s.canon.DISABLE_FEED_OVERRIDE();
     s.canon.DISABLE_SPEED_OVERRIDE(spindle);
     c.feed(c.bottom);
@@ -136,7 +139,9 @@ int tap(Cycle &c, bool left)
     s.canon.STOP_SPINDLE_TURNING(spindle);
     start_spindle(s, spindle, in);
     if (feed_override) s.canon.ENABLE_FEED_OVERRIDE();
+    else if (feed_was_on) s.canon.DISABLE_FEED_OVERRIDE();
     if (speed_override) s.canon.ENABLE_SPEED_OVERRIDE(spindle);
+    else if (speed_was_on) s.canon.DISABLE_SPEED_OVERRIDE(spindle);
     return INTERP_OK;
 }
 
