@@ -234,13 +234,17 @@ int hal_exit(int comp_id)
         return -ENOENT;
     }
     strcpy(name, c->o.name);
+#ifdef RTAPI
+    bool own = c->type == HAL_COMP_TYPE_REALTIME;
+#else
     bool own = c->pid == getpid();
+#endif
     halp_change();
     halp_comp_remove(c);
     halp_unlock();
     halp_dbg("HAL: component %02d removed, name = '%s'\n", comp_id, name);
-    rtapi_exit(comp_id);
-    if (own) {
+    if (own) { /* the module id belongs to the process that made the component */
+        rtapi_exit(comp_id);
         comp_unref();
     }
     return 0;

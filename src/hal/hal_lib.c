@@ -43,7 +43,9 @@ void rtapi_app_exit(void)
     for (struct hal_comp *c = halp_first(HAL_KIND_COMP), *next; c; c = next) {
         next = halp_next(c);
         if (c->type == HAL_COMP_TYPE_REALTIME) {
+            int comp_id = c->comp_id;
             halp_comp_remove(c);
+            rtapi_exit(comp_id);
         }
     }
     hal_data->realtime_type = REALTIME_TYPE_UNINITIALIZED;
