@@ -14,3 +14,5 @@ $(eval $(call rtmodule,streamer,src/hal/stream/streamer.c))
 HALSTREAM_MAIN := src/hal/stream/halstream_main.c
 $(eval $(call program,halsampler,src/hal/stream/halsampler.c $(HALSTREAM_MAIN),linuxcnchal))
 $(eval $(call program,halstreamer,src/hal/stream/halstreamer.c $(HALSTREAM_MAIN),linuxcnchal))
+
+$(eval $(call pymodule,_hal,$(addprefix src/hal/python/,_hal.cc component.cc query.cc stream.cc values.cc),linuxcnchal))
