@@ -17,23 +17,43 @@
 #include <time.h>
 #include "kerf_vclock.h"
 
-#define CHILD_LOOK_NS 1000000 /* virtual time between looks at a child */
+/* Virtual time between looks at a child or a descriptor: grows from the first to
+ * the second, so that a long wait costs little. */
+#define LOOK_FIRST_NS 1000000
+#define LOOK_LAST_NS 10000000
 
 static int is_virtual;
-static double the_pace = 1;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
-static _Thread_local pid_t lent_to_child; /* nonzero: our place is lent */
+static _Thread_local int lent_to_child; /* our place is lent */
+
+static void forget_after_fork(void)
+{
+    lent_to_child = 0;
+}
 
 static void choose(void)
 {
     const char *mode = getenv("KERF_CLOCK");
-    if (!mode || strncmp(mode, "virtual", 7) != 0) return;
-    the_pace = mode[7] == ':' ? atof(mode + 8) : 0;
-    int result = vclock_attach(the_pace);
+    if (!mode || !*mode || strcmp(mode, "real") == 0) {
+        return;
+    }
+    char *end = "";
+    double pace = 0;
+    if (strncmp(mode, "virtual:", 8) == 0) {
+        pace = strtod(mode + 8, &end);
+    } else if (strcmp(mode, "virtual") != 0) {
+        end = "?";
+    }
+    if (*end || !(pace >= 0 && pace <= 1e9)) {
+        fprintf(stderr, "KERF_CLOCK=%s is not \"real\", \"virtual\" or \"virtual:PACE\"; using real time\n", mode);
+        return;
+    }
+    int result = vclock_attach(pace);
     if (result < 0) {
         fprintf(stderr, "virtual clock: cannot attach: %s; using real time\n", strerror(-result));
         return;
     }
+    pthread_atfork(NULL, NULL, forget_after_fork);
     is_virtual = 1;
 }
 
@@ -45,7 +65,7 @@ int kerf_clock_is_virtual(void)
 
 double kerf_clock_pace(void)
 {
-    return kerf_clock_is_virtual() ? the_pace : 1;
+    return kerf_clock_is_virtual() ? vclock_pace() : 1;
 }
 
 int64_t kerf_clock_now_ns(void)
@@ -58,7 +78,7 @@ int64_t kerf_clock_now_ns(void)
 
 int kerf_clock_sleep_until_ns(int64_t when_ns)
 {
-    if (kerf_clock_is_virtual()) return vclock_sleep_until(when_ns);
+    if (kerf_clock_is_virtual()) return vclock_sleep_until(when_ns, vclock_joined() ? NULL : getenv(KERF_CLOCK_SLOT_ENV));
     struct timespec t = {when_ns / 1000000000, when_ns % 1000000000};
     return when_ns > 0 ? -clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, NULL) : 0;
 }
@@ -93,18 +113,41 @@ void kerf_clock_resume(void)
     if (kerf_clock_is_virtual()) vclock_resume();
 }
 
+static int64_t look_next(int64_t step_ns)
+{
+    return step_ns * 2 < LOOK_LAST_NS ? step_ns * 2 : LOOK_LAST_NS;
+}
+
+static int poll_virtual(struct pollfd *fds, nfds_t count, int64_t timeout_ns)
+{
+    if (timeout_ns < 0) { /* only the outside world ends it */
+        kerf_clock_suspend();
+        int n = poll(fds, count, -1);
+        int err = errno;
+        kerf_clock_resume();
+        return n < 0 ? -err : n;
+    }
+    int64_t end = kerf_clock_now_ns() + timeout_ns, step_ns = LOOK_FIRST_NS;
+    for (;;) {
+        int n = poll(fds, count, 0);
+        if (n != 0) {
+            return n < 0 ? -errno : n;
+        }
+        int64_t now_ns = kerf_clock_now_ns();
+        if (now_ns >= end) {
+            return 0;
+        }
+        int result = kerf_clock_sleep_until_ns(end < now_ns + step_ns ? end : now_ns + step_ns);
+        if (result < 0) {
+            return result;
+        }
+        step_ns = look_next(step_ns);
+    }
+}
+
 int kerf_clock_poll(struct pollfd *fds, nfds_t count, int64_t timeout_ns)
 {
-    if (kerf_clock_is_virtual()) {
-        int64_t end = kerf_clock_now_ns() + timeout_ns;
-        for (;;) {
-            int n = poll(fds, count, 0);
-            if (n != 0) return n < 0 ? -errno : n;
-            int64_t now = kerf_clock_now_ns();
-            if (timeout_ns >= 0 && now >= end) return 0;
-            kerf_clock_sleep_until_ns(timeout_ns >= 0 && end < now + CHILD_LOOK_NS ? end : now + CHILD_LOOK_NS);
-        }
-    }
+    if (kerf_clock_is_virtual()) return poll_virtual(fds, count, timeout_ns);
     struct timespec t = {timeout_ns / 1000000000, timeout_ns % 1000000000};
     int n = ppoll(fds, count, timeout_ns < 0 ? NULL : &t, NULL);
     return n < 0 ? -errno : n;
@@ -136,6 +179,15 @@ void kerf_clock_reclaim(void)
     lent_to_child = 0;
 }
 
+void kerf_clock_print(FILE *to)
+{
+    if (kerf_clock_is_virtual()) {
+        vclock_print(to);
+    } else {
+        fprintf(to, "real time\n");
+    }
+}
+
 int kerf_clock_reserve(char *value, size_t size, const char *name, int prio)
 {
     if (size > 0) *value = 0;
@@ -160,9 +212,12 @@ pid_t kerf_clock_waitpid(pid_t pid, int *status, int options)
         return result;
     }
     if (!kerf_clock_joined() || (options & WNOHANG)) return waitpid(pid, status, options);
-    for (;;) {
+    for (int64_t step_ns = LOOK_FIRST_NS;; step_ns = look_next(step_ns)) {
         pid_t result = waitpid(pid, status, options | WNOHANG);
         if (result != 0) return result;
-        kerf_clock_sleep_ns(CHILD_LOOK_NS);
+        if (kerf_clock_sleep_ns(step_ns) < 0) {
+            errno = EINTR;
+            return -1;
+        }
     }
 }

@@ -22,6 +22,7 @@
 #include <poll.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <sys/types.h>
 
 #ifdef __cplusplus
@@ -70,6 +71,9 @@ int kerf_clock_poll(struct pollfd *fds, nfds_t count, int64_t timeout_ns);
 /* Asks ready(arg) every period_ns until it gives nonzero. 0; -ETIMEDOUT after
  * timeout_ns (negative: never); -EINTR. */
 int kerf_clock_wait(int (*ready)(void *arg), void *arg, int64_t period_ns, int64_t timeout_ns);
+
+/* For people: one line on the clock, then one for each participant. */
+void kerf_clock_print(FILE *to);
 
 /* ---- Children -----------------------------------------------------------
  * KERF_CLOCK_SLOT=<value> in the child's environment tells it which place to

@@ -9,6 +9,7 @@
 
 #include <dlfcn.h>
 #include <limits.h>
+#include <link.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,18 +45,16 @@ static char paths[KERF_PATH_COUNT][PATH_LEN + 64];
 static int in_place;
 static pthread_once_t paths_once = PTHREAD_ONCE_INIT;
 
-/* Where this code was loaded from: the library's file, or the program's. */
+/* Where this code was loaded from: the library's file, or the program's. The
+ * program is asked of the kernel: its argv[0] is the caller's word only. */
 static int own_file(char *out)
 {
     Dl_info info;
-    char self[PATH_MAX];
-    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
-    self[n > 0 ? n : 0] = 0;
-    if (dladdr((void *)&kerf_path, &info) && info.dli_fname && strstr(info.dli_fname, ".so") &&
-        realpath(info.dli_fname, out)) {
-        return 1;
+    struct link_map *map = NULL;
+    if (dladdr1((void *)&kerf_path, &info, (void **)&map, RTLD_DL_LINKMAP) && map && map->l_name[0]) {
+        return realpath(map->l_name, out) != NULL;
     }
-    return n > 0 && realpath(self, out) != NULL;
+    return realpath("/proc/self/exe", out) != NULL;
 }
 
 /* Cuts file at the last "/lib/" or "/bin/": what stands before it holds both. */

@@ -7,21 +7,30 @@ PUBLIC_HEADERS += $(addprefix src/rtapi/,rtapi.h rtapi_app.h rtapi_atomic.h rtap
     rtapi_math64.h rtapi_mutex.h rtapi_parport.h rtapi_pci.h rtapi_slab.h rtapi_stdint.h \
     rtapi_string.h rtapi_vsnprintf.h kerf_clock.h kerf_instance.h kerf_paths.h)
 
-# The realtime host. Its RTAPI objects are exported to the modules it loads.
+# The realtime host. Its parts are compiled with RTAPI defined (objects/host). What it offers to
+# modules is listed in host.exports. It must not link liblinuxcnchal: modules bring HAL's names.
 RTAPI_HOST_SOURCES := $(addprefix src/rtapi/,kerf_instance.c kerf_paths.c kerf_clock.c kerf_vclock.c rtapi_common.c \
-    rtapi_shmem.c host/host_tasks.c host/host_setup.c host/rtapi_app.cc)
+    rtapi_shmem.c $(addprefix host/,host_main.c host_module.c host_task.c host_posix.c host_virtual.c host_rt.c \
+    host_msg.c host_device.c))
 RTAPI_HOST_OBJECTS := $(call objs,host,$(RTAPI_HOST_SOURCES))
 DEPS += $(RTAPI_HOST_OBJECTS:.o=.d)
 $(O)/host/%.o: %.c | headers
 	$(call say,CC,$< (host))
 	$(Q)mkdir -p $(@D) && $(CC) -std=gnu11 $(CFLAGS) $(COMMON) -DRTAPI -DUSPACE -c -o $@ $<
-$(O)/host/%.o: %.cc | headers
-	$(call say,CXX,$< (host))
-	$(Q)mkdir -p $(@D) && $(CXX) -std=c++17 $(CXXFLAGS) $(COMMON) -DRTAPI -DUSPACE -c -o $@ $<
 PROGRAMS += $(T)/bin/rtapi_app
-$(T)/bin/rtapi_app: $(RTAPI_HOST_OBJECTS)
+$(T)/bin/rtapi_app: $(RTAPI_HOST_OBJECTS) src/rtapi/host/host.exports
 	$(call say,LINK,$@)
-	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -rdynamic -o $@ $^ -ldl -lpthread
+	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -Wl,--dynamic-list=src/rtapi/host/host.exports -o $@ \
+	    $(RTAPI_HOST_OBJECTS) -ldl -lpthread -lm
+
+# Rights for realtime: capabilities (preferred) or a setuid program. Run by root after the build.
+.PHONY: setcap setuid
+setcap: $(T)/bin/rtapi_app
+	chmod u-s $<
+	setcap cap_ipc_lock,cap_net_admin,cap_sys_rawio,cap_sys_nice+ep $<
+setuid: $(T)/bin/rtapi_app
+	chown root $<
+	chmod 4750 $<
 
 $(eval $(call pymodule,kerf_clock,src/rtapi/python/kerf_clock.cc,linuxcnchal))
 $(eval $(call program,kerf-clock,src/rtapi/kerf-clock.c,linuxcnchal))

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * host_module.c - realtime modules: load, parameters, unload, instances.
+ *
+ * In:     module name and PARAMETER=VALUE words; <rtlib>/<name>.so
+ * Out:    rtapi_app_main called; symbols visible to later modules
+ * Thread: the command thread [init]
+ */
+#include "host.h"
+
+#include <ctype.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "kerf_paths.h"
+
+struct module {
+    struct module *older;
+    void *handle;
+    void (*exit)(void);
+    char name[];
+};
+static struct module *newest;
+
+static void say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+static void say(const char *fmt, ...)
+{
+    va_list ap;
+    va_start(ap, fmt);
+    rtapi_get_msg_handler()(RTAPI_MSG_ERR, fmt, ap);
+    va_end(ap);
+}
+
+static struct module *find(const char *name)
+{
+    struct module *m = newest;
+    while (m && strcmp(m->name, name) != 0) {
+        m = m->older;
+    }
+    return m;
+}
+
+/* ---- Parameters --------------------------------------------------------- */
+
+static void *info(void *handle, const char *kind, const char *parameter)
+{
+    char symbol[256];
+    int n = snprintf(symbol, sizeof symbol, "rtapi_info_%s_%s", kind, parameter);
+    return n > 0 && (size_t)n < sizeof symbol ? dlsym(handle, symbol) : NULL;
+}
+
+/* Stores one value at element i. word: the whole "name=value", for messages. */
+static int store(const char *word, char type, void *address, int i, const char *value)
+{
+    char *end;
+    errno = 0;
+    switch (type) {
+    case 'i':
+    case 'l': {
+        long n = strtol(value, &end, 0);
+        if (*end) {
+            say("`%s' invalid for parameter `%s'\n", value, word);
+            return -1;
+        }
+        if (errno == ERANGE || (type == 'i' && (n < INT_MIN || n > INT_MAX))) {
+            say("`%s' invalid for parameter `%s'\n", value, word);
+            return -1;
+        }
+        if (type == 'i') {
+            ((int *)address)[i] = (int)n;
+        } else {
+            ((long *)address)[i] = n;
+        }
+        return 0;
+    }
+    case 's': {
+        char *copy = strdup(value); /* the module keeps it */
+        if (!copy) {
+            return -1;
+        }
+        ((char **)address)[i] = copy;
+        return 0;
+    }
+    default:
+        say("%s: Invalid type character `%c'\n", word, type);
+        return -1;
+    }
+}
+
+static int store_array(const char *word, const char *name, char type, void *address, int size, char *values)
+{
+    char *value = values;
+    for (int i = 0; value; i++) {
+        char *comma = strchr(value, ',');
+        if (comma) {
+            *comma = 0;
+        }
+        if (i >= size) {
+            say("%s: can only take %d arguments\n", name, size);
+            return -1;
+        }
+        if (store(word, type, address, i, value) < 0) {
+            return -1;
+        }
+        value = comma ? comma + 1 : NULL;
+    }
+    return 0;
+}
+
+/* word is changed. 0 or -1. */
+static int set_parameter(void *handle, char *word)
+{
+    char *to = word;
+    for (const char *from = word; *from; from++) {
+        if (*from != '"') {
+            *to++ = *from;
+        }
+    }
+    *to = 0;
+    char *equals = strchr(word, '=');
+    if (!equals) {
+        say("Invalid parameter `%s'\n", word);
+        return -1;
+    }
+    char *values = strdup(equals + 1);
+    char *name = strndup(word, (size_t)(equals - word));
+    int result = -1;
+    if (values && name) {
+        void *address_info = info(handle, "address", name);
+        void *type_info = info(handle, "type", name);
+        void *size_info = info(handle, "size", name);
+        if (!address_info) {
+            say("Unknown parameter `%s'\n", word);
+        } else if (!type_info) {
+            say("Unknown parameter `%s' (type information missing)\n", word);
+        } else {
+            char type = **(const char **)type_info;
+            void *address = *(void **)address_info;
+            result = size_info ? store_array(word, name, type, address, *(int *)size_info, values)
+                               : store(word, type, address, 0, values);
+        }
+    }
+    free(values);
+    free(name);
+    return result;
+}
+
+/* ---- Load and unload ---------------------------------------------------- */
+
+static int start_module(struct module *m, int argc, char **argv)
+{
+    int (*start)(void) = (int (*)(void))dlsym(m->handle, "rtapi_app_main");
+    if (!start) {
+        say("%s: dlsym: %s\n", m->name, dlerror());
+        return -1;
+    }
+    m->exit = (void (*)(void))dlsym(m->handle, "rtapi_app_exit");
+    if (!m->exit) {
+        say("%s: component is missing rtapi_app_exit\n", m->name);
+        return -1;
+    }
+    for (int i = 0; i < argc; i++) {
+        if (set_parameter(m->handle, argv[i]) < 0) {
+            return -1;
+        }
+    }
+    int result = start();
+    if (result < 0) {
+        say("%s: rtapi_app_main: %s (%d)\n", m->name, strerror(-result), result);
+    }
+    return result;
+}
+
+int host_load(int argc, char **argv)
+{
+    const char *name = argv[0];
+    char path[PATH_MAX];
+    if (strchr(name, '/') || strstr(name, "..")) {
+        say("%s: Not allowed as module name. Slashes or with \"..\" (even /a..b/) are not allowed.\n", name);
+        return -1;
+    }
+    if (find(name)) {
+        say("%s: already exists\n", name);
+        return -1;
+    }
+    struct module *m = calloc(1, sizeof *m + strlen(name) + 1);
+    if (!m) {
+        say("%s: out of memory\n", name);
+        return -1;
+    }
+    strcpy(m->name, name);
+    snprintf(path, sizeof path, "%s/%s.so", kerf_path(KERF_PATH_RTLIB), name);
+    m->handle = dlopen(path, RTLD_GLOBAL | RTLD_NOW);
+    if (!m->handle) {
+        say("%s: dlopen: %s\n", name, dlerror());
+        free(m);
+        return -1;
+    }
+    int result = start_module(m, argc - 1, argv + 1);
+    if (result < 0) {
+        dlclose(m->handle);
+        free(m);
+        return result;
+    }
+    m->older = newest;
+    newest = m;
+    return result;
+}
+
+static void end_module(struct module *m)
+{
+    struct module **link = &newest;
+    while (*link != m) {
+        link = &(*link)->older;
+    }
+    m->exit();
+    *link = m->older;
+    dlclose(m->handle);
+    free(m);
+}
+
+int host_unload(const char *name)
+{
+    struct module *m = find(name);
+    if (!m) {
+        say("%s: not loaded\n", name);
+        return -1;
+    }
+    end_module(m);
+    return 0;
+}
+
+void host_unload_all(void)
+{
+    while (newest) {
+        end_module(newest);
+    }
+}
+
+int host_newinst(const char *comp, const char *inst, const char *arg)
+{
+    int (*make)(const char *, const char *, const char *) = NULL;
+    struct module *hal = find("hal_lib");
+    if (hal) {
+        make = (int (*)(const char *, const char *, const char *))dlsym(hal->handle, "hal_comp_invoke_make");
+    }
+    int result = make ? make(comp, inst, arg) : -EFAULT;
+    if (result == -ENOENT || result == -EFAULT) {
+        say("newinst: component %s not found\n", comp);
+    } else if (result == -ENOEXEC) {
+        say("newinst: component %s does not support instantiation\n", comp);
+    } else if (result != 0) {
+        say("newinst: component %s returned error %d\n", comp, result);
+    }
+    return result == 0 ? 0 : -1;
+}
+
+/* ---- Small services for modules ----------------------------------------- */
+
+long int simple_strtol(const char *nptr, char **endptr, int base)
+{
+    return strtol(nptr, endptr, base);
+}
+
+char **rtapi_argv_split(unsigned long gfp, const char *text, int *argc)
+{
+    (void)gfp;
+    size_t words = 0, len = strlen(text);
+    for (size_t i = 0; i < len; i++) {
+        words += !isspace((unsigned char)text[i]) && (i == 0 || isspace((unsigned char)text[i - 1]));
+    }
+    char **argv = malloc((words + 1) * sizeof *argv + len + 1); /* pointers, then the text */
+    if (!argv) {
+        return NULL;
+    }
+    char *copy = (char *)(argv + words + 1), *rest;
+    strcpy(copy, text);
+    size_t n = 0;
+    for (char *w = strtok_r(copy, " \t\n\v\f\r", &rest); w && n < words; w = strtok_r(NULL, " \t\n\v\f\r", &rest)) {
+        argv[n++] = w;
+    }
+    argv[n] = NULL;
+    if (argc) {
+        *argc = (int)n;
+    }
+    return argv;
+}
+
+void rtapi_argv_free(char **argv)
+{
+    free(argv);
+}
+
+char *rtapi_kstrndup(const char *s, size_t max, unsigned long gfp)
+{
+    (void)gfp;
+    return strndup(s, max);
+}
