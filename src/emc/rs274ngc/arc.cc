@@ -112,6 +112,11 @@ int check_arc_words(Setup &s, const ArcPlane &plane)
 
 } // namespace
 
+int check_arc_radii(Setup &s, Point2 start, Point2 end, Point2 centre)
+{
+    return check_radii(s, arc_plane(s.plane), start, end, centre);
+}
+
 int read_arc(Setup &s, int g, const ArcPlane &plane, Point2 start, Point2 end, Arc *arc)
 {
     const Block &b = s.block;

@@ -33,6 +33,8 @@ struct Arc {
 
 /// Centre and turn of the block's arc from start to end (plane coordinates, program units).
 [[nodiscard]] int read_arc(Setup &s, int g, const ArcPlane &plane, Point2 start, Point2 end, Arc *arc);
+/// The tolerance checks of centre format.
+[[nodiscard]] int check_arc_radii(Setup &s, Point2 start, Point2 end, Point2 centre);
 /// Angle swept from start to end, radians, signed like turn; a full turn when they coincide.
 double arc_sweep(Point2 start, Point2 end, Point2 centre, int turn);
 /// Arc tolerance in program units.

@@ -443,6 +443,17 @@ int next_line(Setup &s, bool *have)
 
 } // namespace
 
+int ngc::read_next_block(Setup &s)
+{
+    bool have;
+    TRY(next_line(s, &have));
+    if (!have || (s.text[0] == '/' && s.canon.GET_BLOCK_DELETE())) {
+        s.block.clear();
+        return INTERP_OK;
+    }
+    return read_block(s);
+}
+
 int Interp::read()
 {
     Setup &s = *this->s;
@@ -453,15 +464,7 @@ int Interp::read()
     }
     int status = INTERP_OK;
     if (__builtin_expect(s.probe_flag || s.toolchange_flag || s.input_flag, 0)) status = take_results(s);
-    bool have = false;
-    if (status == INTERP_OK) status = next_line(s, &have);
-    if (status == INTERP_OK) {
-        if (!have || (s.text[0] == '/' && s.canon.GET_BLOCK_DELETE())) {
-            s.block.clear();
-            return INTERP_OK;
-        }
-        status = read_block(s);
-    }
+    if (status == INTERP_OK) status = read_next_block(s);
     if (__builtin_expect(status > INTERP_MIN_ERROR, 0)) {
         s.trace(__func__);
         return failed(s, status);

@@ -26,6 +26,9 @@ void fill_fault_place(Setup &s);
 [[nodiscard]] int read_parameter_name(Setup &s, std::string_view *name);
 [[nodiscard]] int to_integer(Setup &s, double value, int *result);
 
+// ---- interp.cc: the next line of the program -> block (empty when it is skipped) ---------
+[[nodiscard]] int read_next_block(Setup &s);
+
 // ---- words.cc: text -> block -----------------------------------------------------------
 [[nodiscard]] int read_block(Setup &s);
 
