@@ -10,14 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "follow.h"
 #include "rtapi.h"
 #include "tp.h"
 #include "traj.h"
 
 #define QUEUE_SIZE 2000   /* moves, documented */
 #define QUEUE_MARGIN 220  /* full so many moves before */
+#define REVERSE_LOOK 16   /* moves looked back for one that cannot be undone */
 #define NUM_OUT 64        /* synchronised outputs of a kind */
-#define REST_SPEED 1e-8   /* units/s: slower counts as stopped */
+#define OUTPUT_LAG 2      /* cycles from the planner to a joint's command: motmod's interpolator */
+#define SYNC_EXCESS 1.02   /* a spindle that asks for so much more than the limit is refused */
+#define TAP_OVERRUN 10    /* revolutions that a tap may run on after the spindle was reversed */
+#define ABORT_FOLLOW 0.1  /* s that an aborted tap goes on following while the spindle is not stopped */
 
 /* Outputs that a move switches when it starts. */
 struct outputs {
@@ -27,6 +32,24 @@ struct outputs {
     double analog_value[NUM_OUT];
 };
 
+/* How moves follow a spindle. */
+struct sync {
+    enum { SYNC_OFF, SYNC_SPEED, SYNC_POSITION } mode;
+    int spindle;
+    double upr; /* units per revolution */
+};
+
+/* Rigid tapping: one axis of motion, u, from the start of the hole. */
+enum tap_state { TAP_IDLE, TAP_IN, TAP_REVERSING, TAP_OUT, TAP_FINAL_REVERSAL, TAP_PLACE };
+struct tap {
+    enum tap_state state;
+    double x, v;        /* place and speed along the hole */
+    double depth;
+    double dir[PATH_AXES];
+    double start[PATH_AXES];
+    double abort_time;  /* s since an abort */
+};
+
 /* What belongs to a move beside its path. */
 struct move_info {
     int id;
@@ -34,7 +57,11 @@ struct move_info {
     unsigned char enables;
     char atspeed;           /* wait for all spindles before it */
     int indexer;            /* joint to unlock for it, -1 none */
-    double axis_feed;       /* requested speed in its metric, units/s */
+    struct sync sync;       /* what it follows */
+    int tap;                /* rigid tap: a mark in the path */
+    double tap_scale;       /* factor of the spindle's speed while retracting */
+    double tap_vmax, tap_acc, tap_feed;
+    double tap_end[PATH_AXES];
     struct state_tag_t tag;
     int has_outputs;
     struct outputs outputs;
@@ -57,6 +84,11 @@ struct planner {
     int done;
     int64_t entered;        /* last move whose start was reported, -1 none */
     int unlocked_joint;     /* rotary joint that was unlocked for the executing move, -1 none */
+    struct sync sync;       /* of moves to come */
+    int index_requested;    /* the start of a synchronised move waits for the spindle's index */
+    int followed;           /* spindle of `follow`, -1 none */
+    struct follower follow;
+    struct tap tap;
     struct outputs pending; /* of the next move appended */
     struct move_info scratch; /* a move on its way into the queue */
 };
@@ -119,6 +151,11 @@ static void forget_moves(TP_STRUCT *tp, struct planner *pl, int keep_tag)
     pl->pausing = pl->aborting = 0;
     pl->done = 1;
     pl->entered = -1;
+    pl->tap.state = TAP_IDLE;
+    if (pl->index_requested && pl->followed >= 0) status->spindle_status[pl->followed].spindle_index_enable = 0;
+    pl->index_requested = 0;
+    pl->followed = -1;
+    if (status) status->spindleSync = 0;
     if (!keep_tag) memset(&pl->exec_tag, 0, sizeof pl->exec_tag);
     tp->spindle.waiting_for_index = tp->spindle.waiting_for_atspeed = -1;
     tp->reverse_run = TC_DIR_FORWARD;
@@ -138,7 +175,7 @@ int tpCreate(TP_STRUCT *tp, int queue_size, int id)
     pl->next_id = id;
     pl->term = TRAJ_BLEND;
     pl->vlimit = 1e99;
-    pl->unlocked_joint = -1;
+    pl->unlocked_joint = pl->followed = -1;
     traj_init(&pl->tj, pl->cycle);
     forget_moves(tp, pl, 0);
     return TP_ERR_OK;
@@ -289,9 +326,11 @@ int tpIsDone(TP_STRUCT *tp)
     return pl ? pl->done : 0;
 }
 
+/* Moves in the queue, with the executing one. */
 static uint32_t depth(const struct planner *pl)
 {
-    return pl->tj.end - pl->tj.cur;
+    int64_t waiting = traj_waiting(&pl->tj);
+    return pl->tj.end - (waiting >= 0 ? (uint32_t)waiting : pl->tj.cur);
 }
 
 int tpQueueDepth(TP_STRUCT *tp)
@@ -321,8 +360,16 @@ int tcqFull(TC_QUEUE_STRUCT const *queue)
 int tpSetSpindleSync(TP_STRUCT *tp, int spindle, double sync, int velocity_mode)
 {
     struct planner *pl = planner_of(tp);
-    (void)spindle, (void)sync, (void)velocity_mode;
-    return pl ? TP_ERR_OK : TP_ERR_FAIL;
+    if (!pl) return TP_ERR_FAIL;
+    if (sync == 0) {
+        pl->sync.mode = SYNC_OFF;
+        return TP_ERR_OK;
+    }
+    if (!isfinite(sync) || spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES) return TP_ERR_RANGE;
+    pl->sync.mode = velocity_mode ? SYNC_SPEED : SYNC_POSITION;
+    pl->sync.spindle = spindle;
+    pl->sync.upr = fabs(sync);
+    return TP_ERR_OK;
 }
 
 int tpSetAout(TP_STRUCT *tp, unsigned char index, double start, double end)
@@ -392,19 +439,24 @@ static void read_limits(struct planner *pl)
     }
 }
 
-/* Appends a move whose path, feed and info are filled in, except for the outputs. */
-static int append(struct planner *pl, struct traj_move *move, const struct move_info *info)
+/* Appends a move whose path, feed and info are filled in, except for outputs and sync. */
+static int append(struct planner *pl, struct traj_move *move, struct move_info *info)
 {
+    static const enum traj_follow follows[] = { TRAJ_FEED, TRAJ_SYNC_SPEED, TRAJ_SYNC_POSITION };
     struct traj *tj = &pl->tj;
 
     read_limits(pl);
     tj->drive.max_scale = config->maxFeedScale;
     move->end = pl->term;
     move->tol = pl->tolerance;
+    info->sync = pl->sync;
+    if (!info->tap) move->follow = follows[info->sync.mode];
     if (tj->end != tj->first) {
         const struct move_info *prev = &pl->info[(tj->end - 1) & (TRAJ_SEGS - 1)];
+        int goes_on = prev->sync.mode == SYNC_POSITION && prev->sync.spindle == info->sync.spindle && !prev->tap;
         if ((prev->canon == EMC_MOTION_TYPE_TRAVERSE) != (info->canon == EMC_MOTION_TYPE_TRAVERSE) ||
-            info->atspeed || prev->indexer >= 0 || info->indexer >= 0)
+            info->atspeed || prev->indexer >= 0 || info->indexer >= 0 ||
+            (info->sync.mode == SYNC_POSITION && !goes_on))
             move->rest_before = 1;
     }
     int64_t index = traj_append(tj, move);
@@ -436,7 +488,7 @@ int tpAddLine(TP_STRUCT *tp, EmcPose end, int canon_motion_type, double vel, dou
     if (r != TP_ERR_OK) return r;
     struct move_info *info = &pl->scratch;
     *info = (struct move_info){ .id = pl->next_id, .canon = canon_motion_type, .enables = enables,
-                                .atspeed = atspeed, .indexer = indexer_jnum, .axis_feed = vel, .tag = tag };
+                                .atspeed = atspeed, .indexer = indexer_jnum, .tag = tag };
     return append(pl, &move, info);
 }
 
@@ -455,7 +507,7 @@ int tpAddCircle(TP_STRUCT *tp, EmcPose end, PmCartesian center, PmCartesian norm
     if (r != TP_ERR_OK) return r;
     struct move_info *info = &pl->scratch;
     *info = (struct move_info){ .id = pl->next_id, .canon = canon_motion_type, .enables = enables,
-                                .atspeed = atspeed, .indexer = -1, .axis_feed = vel, .tag = tag };
+                                .atspeed = atspeed, .indexer = -1, .tag = tag };
     return append(pl, &move, info);
 }
 
@@ -463,12 +515,29 @@ int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double ini_maxvel, dou
                   unsigned char enables, double scale, struct state_tag_t tag)
 {
     struct planner *pl = planner_of(tp);
+    struct traj_move move = { .feed = vel, .vmax = ini_maxvel, .acc = acc, .jerk = ini_maxjerk, .mark = 1 };
+    struct path_prim hole;
+    double to[PATH_AXES];
     int r = check_add(pl, vel, ini_maxvel, acc);
 
-    (void)end, (void)ini_maxjerk, (void)enables, (void)scale, (void)tag;
     if (r != TP_ERR_OK) return r;
-    rtapi_print_msg(RTAPI_MSG_ERR, "Cannot add unsynchronized rigid tap move.\n");
-    return TP_ERR_FAIL;
+    if (pl->sync.mode == SYNC_OFF) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "Cannot add unsynchronized rigid tap move.\n");
+        return TP_ERR_FAIL;
+    }
+    from_pose(&end, to);
+    memcpy(to + 3, pl->goal + 3, 6 * sizeof *to); /* only xyz taps */
+    r = result_of(path_line(&hole, pl->goal, to));
+    if (r != TP_ERR_OK) return r;
+    struct move_info *info = &pl->scratch;
+    *info = (struct move_info){ .id = pl->next_id, .canon = 0, .enables = enables, .indexer = -1, .tap = 1,
+                                .tap_scale = scale > 0 ? scale : 1, .tap_vmax = ini_maxvel, .tap_acc = acc,
+                                .tap_feed = vel, .tag = tag };
+    memcpy(info->tap_end, to, sizeof info->tap_end);
+    /* In the path it is a mark: it ends where it began. */
+    memcpy(move.prim.start, pl->goal, sizeof move.prim.start);
+    memcpy(move.prim.end, pl->goal, sizeof move.prim.end);
+    return append(pl, &move, info);
 }
 
 /* ---- servo cycle ------------------------------------------------------------------ */
@@ -505,11 +574,60 @@ static int rotary_locked(struct planner *pl)
     return 1;
 }
 
-/* May the move that waits begin? */
-static int may_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *info)
+/* Revolutions of a spindle, growing while it turns as commanded. */
+static double spindle_revs(int spindle)
 {
+    const struct spindle_status *sp = &status->spindle_status[spindle];
+    return sp->direction < 0 ? -sp->spindleRevs : sp->spindleRevs;
+}
+
+/* Seconds by which the reference is taken ahead: what the planner puts out now acts so much later. */
+static double follow_lead(const struct planner *pl)
+{
+    return OUTPUT_LAG * pl->cycle + traj_lag(&pl->tj);
+}
+
+/* Goes on with the start of a move that follows a spindle's position: index, then phase. 1: may start. */
+static int sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *info, double acc, double vmax)
+{
+    int n = info->sync.spindle;
+    struct spindle_status *sp = &status->spindle_status[n];
+
+    if (!pl->index_requested) {
+        pl->follow.running = 0;
+        pl->followed = n;
+        pl->index_requested = 1;
+        tp->spindle.waiting_for_index = info->id;
+        sp->spindle_index_enable = 1;
+        follow_measure(&pl->follow, spindle_revs(n), pl->cycle);
+        return 0;
+    }
+    if (sp->spindle_index_enable) return 0;
+    pl->index_requested = 0;
+    tp->spindle.waiting_for_index = -1;
+    follow_index(&pl->follow, spindle_revs(n));
+    if (info->sync.upr * fabs(pl->follow.speed) > vmax * SYNC_EXCESS) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: following spindle %d needs %g units/s, the machine's limit is %g\n",
+                        info->id, n, info->sync.upr * fabs(pl->follow.speed), vmax);
+        status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
+        pl->pausing = pl->aborting = 1;
+        return 0;
+    }
+    follow_start(&pl->follow, info->sync.upr, acc, follow_lead(pl), pl->cycle);
+    status->spindleSync = 1;
+    return 1;
+}
+
+/* May the move that waits begin? */
+static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
+{
+    const struct move_info *info = &pl->info[index & (TRAJ_SEGS - 1)];
+    const struct traj_seg *g = traj_seg(&pl->tj, index);
+    int goes_on = status->spindleSync && !info->tap; /* rest within a synchronised run */
+
     if (pl->pausing || !rotary_locked(pl)) return 0;
-    if (info->atspeed && !spindles_at_speed()) {
+    if ((info->atspeed || (info->sync.mode == SYNC_POSITION && !goes_on) || info->tap) && !pl->index_requested &&
+        !spindles_at_speed()) {
         tp->spindle.waiting_for_atspeed = info->id;
         return 0;
     }
@@ -519,36 +637,137 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *
         pl->unlocked_joint = info->indexer;
         if (!get_rotary_is_unlocked(info->indexer)) return 0;
     }
+    if (info->tap) return sync_start(tp, pl, info, info->tap_acc, info->tap_vmax);
+    if (info->sync.mode == SYNC_POSITION && !goes_on) return sync_start(tp, pl, info, g->acc / g->stretch, g->vmax);
     return 1;
 }
 
-/* Reports moves whose start was passed: id, tag, outputs, each once and in order. */
+/* Speed asked for by the spindle that the executing move follows. */
+static double sync_speed(struct planner *pl)
+{
+    struct traj *tj = &pl->tj;
+    const struct move_info *info = &pl->info[tj->cur & (TRAJ_SEGS - 1)];
+    const struct traj_seg *g = traj_seg(tj, tj->cur);
+
+    if (info->sync.mode == SYNC_SPEED)
+        return fabs(status->spindle_status[info->sync.spindle].spindleSpeedIn) * info->sync.upr;
+    if (info->sync.mode != SYNC_POSITION || pl->followed < 0) return 0;
+    double reference = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl));
+    double error = reference - (tj->s - g->s0) / g->stretch;
+    double v = follow_speed(error, info->sync.upr * pl->follow.speed, g->acc / g->stretch, pl->cycle);
+    return v > 0 ? v : 0;
+}
+
+/* The executing move changed from `from` to the present one: the reference goes on from its end. */
+static void follow_moves(struct planner *pl, uint32_t from)
+{
+    struct traj *tj = &pl->tj;
+
+    for (; (int32_t)(tj->cur - from) > 0; from++) {
+        const struct move_info *info = &pl->info[from & (TRAJ_SEGS - 1)];
+        if (info->sync.mode == SYNC_POSITION && !info->tap)
+            pl->follow.origin += traj_seg(tj, from)->prim.feed_len / info->sync.upr;
+    }
+    const struct move_info *now = &pl->info[tj->cur & (TRAJ_SEGS - 1)];
+    if (now->sync.mode != SYNC_POSITION && !pl->index_requested) {
+        pl->followed = -1;
+        status->spindleSync = 0;
+    }
+}
+
+/* One cycle of a rigid tap. Ends the mark when the tool is back at the start. */
+static void run_tap(struct planner *pl, const struct move_info *info)
+{
+    struct tap *tap = &pl->tap;
+    struct spindle_status *sp = &status->spindle_status[info->sync.spindle];
+    double T = pl->cycle, dv = info->tap_acc * T, v0 = tap->v, want;
+
+    if (tap->state == TAP_IDLE) {
+        double d[PATH_AXES];
+        for (int i = 0; i < PATH_AXES; i++) d[i] = info->tap_end[i] - pl->tj.pos[i];
+        tap->depth = path_group_norm(d, PATH_XYZ);
+        for (int i = 0; i < PATH_AXES; i++) tap->dir[i] = i < 3 ? d[i] / tap->depth : 0;
+        tap->x = tap->v = tap->abort_time = 0;
+        tap->state = TAP_IN;
+        v0 = 0;
+    }
+    double error = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl)) - tap->x;
+    double rate = info->sync.upr * pl->follow.speed;
+    want = follow_speed(error, rate, info->tap_acc, T);
+    if (want < 0 && tap->state == TAP_IN) want = 0;
+    if (tap->state == TAP_PLACE) {
+        double top = info->tap_feed * (pl->pausing ? 0 : status->net_feed_scale), left = fabs(tap->x);
+        want = sqrt(dv * dv / 4 + 2 * info->tap_acc * left) - dv / 2;
+        want = fmin(fmin(want, left / T), fmin(top, info->tap_vmax));
+        if (tap->x > 0) want = -want;
+    }
+    if (pl->aborting) {
+        /* Tool and thread stay together while the spindle runs down. */
+        tap->abort_time += T;
+        int stopping = sp->speed == 0 || tap->abort_time < ABORT_FOLLOW;
+        if (tap->state == TAP_PLACE || !stopping) want = 0;
+    }
+    if (fabs(want) > info->tap_vmax) want = want < 0 ? -info->tap_vmax : info->tap_vmax;
+    tap->v += fmax(-dv, fmin(dv, want - tap->v));
+    tap->x += (v0 + tap->v) / 2 * T;
+
+    switch (tap->state) {
+    case TAP_IDLE: break;
+    case TAP_IN:
+        if (tap->x < tap->depth) break;
+        sp->speed *= -info->tap_scale;
+        tap->state = TAP_REVERSING;
+        break;
+    case TAP_REVERSING:
+        if (tap->x > tap->depth + TAP_OVERRUN * info->sync.upr && !pl->aborting) {
+            rtapi_print_msg(RTAPI_MSG_ERR, "line %d: spindle %d does not reverse, rigid tap stopped\n", info->id,
+                            info->sync.spindle);
+            status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
+            pl->pausing = pl->aborting = 1;
+        }
+        if (pl->follow.speed < 0) tap->state = TAP_OUT;
+        break;
+    case TAP_OUT:
+        if (tap->x > 0) break;
+        sp->speed *= -1 / info->tap_scale;
+        tap->state = TAP_FINAL_REVERSAL;
+        break;
+    case TAP_FINAL_REVERSAL:
+        if (pl->follow.speed > 0) {
+            tap->state = TAP_PLACE;
+            pl->followed = -1;
+            status->spindleSync = 0;
+        }
+        break;
+    case TAP_PLACE:
+        if (fabs(tap->x) > 1e-9 || fabs(tap->v) > 2 * dv) break;
+        tap->x = tap->v = 0;
+        tap->state = TAP_IDLE;
+        traj_finish(&pl->tj);
+        break;
+    }
+}
+
+/* Reports moves that started: id, tag, outputs, each once and in order. */
 static void enter_moves(struct planner *pl)
 {
     struct traj *tj = &pl->tj;
     int64_t waiting = traj_waiting(tj), last = tj->cur;
+    const struct move_info *shown = &pl->info[tj->cur & (TRAJ_SEGS - 1)];
 
-    if (waiting >= 0 && last == waiting) {
-        const struct move_info *info = &pl->info[waiting & (TRAJ_SEGS - 1)];
-        pl->exec_id = info->id;
-        pl->canon = info->canon;
-        status->enables_queued = info->enables;
-        last--;
-    }
+    if (waiting == last) last--; /* not even the first has started */
     if (last < pl->entered) pl->entered = last; /* running backward: outputs stay as they are */
     while (pl->entered < last) {
         pl->entered++;
-        if (pl->entered < (int64_t)tj->first) continue;
         const struct move_info *info = &pl->info[pl->entered & (TRAJ_SEGS - 1)];
         if (info->has_outputs) write_outputs(&info->outputs);
-    }
-    if (last >= (int64_t)tj->first && last == (int64_t)tj->cur) {
-        const struct move_info *info = &pl->info[last & (TRAJ_SEGS - 1)];
-        pl->exec_id = info->id;
-        pl->canon = info->canon;
         pl->exec_tag = info->tag;
-        status->enables_queued = info->enables;
     }
+    if (waiting >= 0) shown = &pl->info[waiting & (TRAJ_SEGS - 1)];
+    else pl->exec_tag = shown->tag;
+    pl->exec_id = shown->id;
+    pl->canon = shown->canon;
+    status->enables_queued = shown->enables;
 }
 
 static void moving_status(struct planner *pl, const double before[PATH_AXES])
@@ -578,6 +797,22 @@ static void moving_status(struct planner *pl, const double before[PATH_AXES])
     status->tcqlen = depth(pl);
 }
 
+/* Where motion shall rest though the path goes on; NAN: nowhere. */
+static double stop_place(struct planner *pl)
+{
+    struct traj *tj = &pl->tj;
+
+    if (tj->drive.reverse) {
+        /* back as far as moves can be undone: none that followed a spindle */
+        for (uint32_t i = tj->cur;; i--) {
+            const struct move_info *info = &pl->info[i & (TRAJ_SEGS - 1)];
+            if (info->sync.mode != SYNC_OFF || info->tap || info->indexer >= 0) return traj_seg(tj, i)->s1;
+            if (i == tj->first || tj->cur - i > REVERSE_LOOK) return NAN;
+        }
+    }
+    return status->stepping ? traj_seg(tj, tj->cur)->s1 : NAN;
+}
+
 int tpRunCycle(TP_STRUCT *tp, long period)
 {
     struct planner *pl = planner_of(tp);
@@ -592,24 +827,36 @@ int tpRunCycle(TP_STRUCT *tp, long period)
         idle_status(pl);
         return TP_ERR_WAITING;
     }
-    if (pl->aborting && traj_at_rest(tj)) {
+    if (pl->followed >= 0) follow_measure(&pl->follow, spindle_revs(pl->followed), pl->cycle);
+    if (pl->aborting && traj_at_rest(tj) && (pl->tap.state == TAP_IDLE || (pl->tap.v == 0 && pl->tap.abort_time > 0))) {
         if (pl->unlocked_joint >= 0) set_rotary_unlock(pl->unlocked_joint, 0);
         pl->unlocked_joint = -1;
         forget_moves(tp, pl, 1);
         idle_status(pl);
         return TP_ERR_STOPPED;
     }
+    const struct traj_seg *now = traj_seg(tj, tj->cur);
     tj->drive.scale = status->net_feed_scale;
     tj->drive.max_scale = config->maxFeedScale;
     tj->drive.vlimit = pl->vlimit;
-    tj->drive.hold = pl->pausing || pl->aborting;
+    tj->drive.reverse = tp->reverse_run == TC_DIR_REVERSE;
+    /* a move that follows a spindle's position is not paused */
+    tj->drive.hold = pl->aborting || (pl->pausing && now->follow != TRAJ_SYNC_POSITION);
+    tj->drive.stop_s = stop_place(pl);
     memcpy(before, pl->pos, sizeof before);
 
     int64_t waiting = traj_waiting(tj);
-    if (waiting >= 0 && may_start(tp, pl, &pl->info[waiting & (TRAJ_SEGS - 1)])) traj_release(tj);
+    if (waiting >= 0 && may_start(tp, pl, (uint32_t)waiting)) traj_release(tj);
+    tj->drive.sync_speed = sync_speed(pl);
+    uint32_t from = tj->cur;
     traj_cycle(tj);
     memcpy(pl->pos, tj->pos, sizeof pl->pos);
+    follow_moves(pl, from);
     enter_moves(pl);
+    if (tj->in_mark) {
+        run_tap(pl, &pl->info[tj->cur & (TRAJ_SEGS - 1)]);
+        for (int i = 0; i < PATH_AXES; i++) pl->pos[i] += pl->tap.dir[i] * pl->tap.x;
+    }
     moving_status(pl, before);
     if (traj_done(tj) && rotary_locked(pl)) {
         forget_moves(tp, pl, 1);

@@ -11,6 +11,7 @@
 #define SWEEP_BUDGET 512   /* cells looked at by the envelope in a cycle */
 #define CELLS_CYCLE 24     /* the speed is capped so that so many cells in a row last a cycle */
 #define PORTIONS (8 * CELLS_CYCLE) /* pieces of constant acceleration in a cycle, never reached */
+#define STOP_SCAN 256      /* cells looked ahead for a stop at a given place */
 #define SCAN_LIMIT 64      /* junctions whose rounding may cover one point, each side */
 
 #define CELL_MOVES 64      /* moves that one cell may span; less than TRAJ_HISTORY */
@@ -35,6 +36,7 @@ void traj_init(struct traj *tj, double dt)
     tj->drive.scale = 1;
     tj->drive.max_scale = 1;
     tj->drive.vlimit = 1e99;
+    tj->drive.stop_s = NAN;
     tj->sweep_scale = 1;
     tj->sweep_vlimit = 1e99;
 }
@@ -47,11 +49,12 @@ void traj_reset(struct traj *tj, const double p[PATH_AXES])
     tj->tail_forced = 0;
     tj->cut_seg = tj->cut_join = 0;
     tj->sweep = 0;
-    tj->sweeping = 0;
+    tj->sweeping = tj->sweep_anew = 0;
     tj->swept_end = 0;
     tj->s = tj->v = tj->acc = 0;
     tj->dir = 1;
-    tj->waiting = 0;
+    tj->waiting = tj->in_mark = 0;
+    tj->back_sweep = 0;
     memcpy(tj->pos, p, sizeof tj->pos);
 }
 
@@ -193,7 +196,8 @@ int64_t traj_append(struct traj *tj, const struct traj_move *move)
     g->s1 = g->s0 + move->prim.len;
     g->feed = move->feed;
     g->vmax = move->vmax;
-    g->stretch = move->prim.len / fmax(move->prim.feed_len, 1e-300);
+    g->mark = move->mark;
+    g->stretch = g->mark ? 1 : move->prim.len / fmax(move->prim.feed_len, 1e-300);
     g->acc = move->acc * g->stretch;
     g->jerk = move->jerk * g->stretch;
     g->tol = move->tol;
@@ -206,7 +210,7 @@ int64_t traj_append(struct traj *tj, const struct traj_move *move)
         memset(g->dk, 0, sizeof g->dk);
         join_rest(tj, g);
     } else {
-        make_join(tj, index, move->rest_before);
+        make_join(tj, index, move->rest_before || move->mark || traj_cseg(tj, index - 1)->mark);
     }
     tj->end++;
     tj->tail_forced = 0;
@@ -452,11 +456,12 @@ static void sweep_envelope(struct traj *tj)
     /* A hold aims at rest by itself; the envelope stays. */
     if (scale < 1e-9) scale = tj->sweep_scale;
     if (!tj->sweeping) {
-        int changed = scale != tj->sweep_scale || tj->drive.vlimit != tj->sweep_vlimit;
+        int changed = scale != tj->sweep_scale || tj->drive.vlimit != tj->sweep_vlimit || tj->sweep_anew;
         if (!changed && tj->swept_end == tj->cell_end) return;
         if (tj->cell_end == tj->cell_first) return;
         tj->sweeping = 1;
         tj->sweep_full = changed;
+        tj->sweep_anew = 0;
         tj->sweep_scale = scale;
         tj->sweep_vlimit = tj->drive.vlimit;
         tj->swept_end = tj->cell_end;
@@ -522,6 +527,33 @@ static double braked(const struct traj_cell *c, double b_end, double d, double v
     return lo;
 }
 
+/* Moves on the counter of started moves to place s, which motion has just reached. */
+static void pass_moves(struct traj *tj)
+{
+    if (tj->dir > 0) {
+        while (tj->cur + 1 != tj->end && tj->s >= traj_cseg(tj, tj->cur)->s1 &&
+               traj_cseg(tj, tj->cur + 1)->join != JOIN_REST)
+            tj->cur++;
+    } else {
+        while (tj->cur != tj->first && tj->s <= traj_cseg(tj, tj->cur)->s0) tj->cur--;
+    }
+}
+
+/* At rest before a move that needs a release? */
+static void check_gate(struct traj *tj)
+{
+    const struct traj_seg *g = traj_cseg(tj, tj->cur);
+
+    tj->waiting = 0;
+    if (tj->dir < 0 || tj->in_mark || tj->v > 0) return;
+    if (tj->cur == tj->first && tj->s == g->s0 && !g->released && g->join == JOIN_REST) {
+        tj->waiting = 1;
+        return;
+    }
+    if (tj->s < g->s1 || tj->cur + 1 == tj->end) return;
+    if (traj_cseg(tj, tj->cur + 1)->join == JOIN_REST) tj->waiting = 1;
+}
+
 /* Goes on to the next cell in the direction of motion. 0: motion ends here for this cycle. */
 static int next_cell(struct traj *tj)
 {
@@ -532,13 +564,9 @@ static int next_cell(struct traj *tj)
             return 0;
         }
         if (cell_at(tj, next)->rest) {
-            uint32_t index = cell_at(tj, next)->seg;
             tj->v = 0;
-            if (!traj_seg(tj, index)->released) {
-                tj->waiting = 1;
-                tj->wait_seg = index;
-                return 0;
-            }
+            /* a move that was released has become the current one */
+            if (tj->cur != cell_at(tj, next)->seg) return 0;
         }
         tj->cell = next;
         tj->s = cell_at(tj, next)->s0;
@@ -555,6 +583,39 @@ static int next_cell(struct traj *tj)
         }
     }
     return 1;
+}
+
+/* b allowed at the end of the present cell (in the direction of motion) such that motion can rest
+ * at stop_s; *d is shortened when the place lies in this cell. Negative: nothing to stop for. */
+static double stop_b(const struct traj *tj, double *d)
+{
+    double stop = tj->drive.stop_s, b = 0;
+    uint32_t index = tj->cell;
+    const struct traj_cell *c = &tj->cells[index & (TRAJ_CELLS - 1)];
+
+    if (isnan(stop) || (stop - tj->s) * tj->dir < 0) return -1;
+    if ((stop - tj->s) * tj->dir <= *d) {
+        *d = fabs(stop - tj->s);
+        return 0;
+    }
+    for (int n = 0; n < STOP_SCAN; n++) {
+        uint32_t next = tj->dir > 0 ? index + 1 : index - 1;
+        if (tj->dir > 0 ? next == tj->cell_end : index == tj->cell_first) break;
+        index = next;
+        c = &tj->cells[index & (TRAJ_CELLS - 1)];
+        if (tj->dir > 0 ? c->s0 + c->len >= stop : c->s0 <= stop) {
+            double part = tj->dir > 0 ? stop - c->s0 : c->s0 + c->len - stop;
+            b = fmin(c->cap, ramp_b(c, 0, part));
+            index = tj->dir > 0 ? index - 1 : index + 1;
+            break;
+        }
+    }
+    while (index != tj->cell) {
+        c = &tj->cells[index & (TRAJ_CELLS - 1)];
+        b = fmin(c->cap, ramp_b(c, b, c->len));
+        index = tj->dir > 0 ? index - 1 : index + 1;
+    }
+    return b;
 }
 
 /* Speed aimed at in a cell. */
@@ -586,9 +647,24 @@ static void step_path(struct traj *tj)
             if (!next_cell(tj)) break;
             continue;
         }
-        double b_end = tj->dir > 0 ? (tj->cell + 1 == tj->cell_end ? 0 : cell_at(tj, tj->cell + 1)->k) : c->kr;
-        double v = tj->v, b = v * v, vt = target_speed(tj, c), ve2, t = left, x;
+        double b_end, v = tj->v, b = v * v, vt = target_speed(tj, c), ve2, t = left, x;
+        if (tj->dir > 0) b_end = tj->cell + 1 == tj->cell_end ? 0 : cell_at(tj, tj->cell + 1)->k;
+        else b_end = tj->cell == tj->cell_first ? 0 : c->kr;
         if (vt <= 0 && v <= 0) break;
+        double d_stop = d, b_stop = stop_b(tj, &d_stop);
+        if (b_stop >= 0 && b <= ramp_b(c, b_stop, d_stop) * (1 + 1e-9)) {
+            if (d_stop <= 0) { /* arrived */
+                tj->v = 0;
+                break;
+            }
+            if (d_stop < d) {
+                d = d_stop;
+                end = tj->drive.stop_s;
+                b_end = 0;
+            } else {
+                b_end = fmin(b_end, b_stop);
+            }
+        }
         double brake = allowed(c, b), low2 = fmax(0, b - 2 * brake * d);
 
         if (v > vt) { /* too fast: brake to vt */
@@ -651,7 +727,7 @@ static void work(struct traj *tj)
 /* Forgets executed moves beyond the history. */
 static void retire(struct traj *tj)
 {
-    tj->cur = seg_of(tj, tj->cur, tj->s);
+    pass_moves(tj);
     while (tj->cur - tj->first > TRAJ_HISTORY) tj->first++;
     if ((int32_t)(tj->first - tj->cut_join) > 0) tj->cut_join = tj->first;
     while (tj->cell_first != tj->cell) {
@@ -663,35 +739,80 @@ static void retire(struct traj *tj)
     }
 }
 
+/* Envelope for running backward: from the oldest cell to the present one. 1: complete. */
+static int sweep_back(struct traj *tj)
+{
+    double scale = tj->drive.scale < 1e-9 ? tj->back_scale : tj->drive.scale;
+
+    if (scale != tj->back_scale && (int32_t)(tj->back_sweep - tj->cell) >= 0) {
+        tj->back_scale = scale;
+        tj->back_sweep = tj->cell_first;
+    }
+    scale = tj->back_scale;
+    for (int n = 0; n < SWEEP_BUDGET; n++) {
+        if ((int32_t)(tj->back_sweep - tj->cell) >= 0) return 1;
+        const struct traj_cell *c = cell_at(tj, tj->back_sweep);
+        struct traj_cell *next = cell_at(tj, tj->back_sweep + 1);
+        double kr = tj->back_sweep == tj->cell_first || c->rest ? 0 : c->kr;
+        kr = fmin(fmin(ramp_b(c, kr, c->len), c->cap), feed_b(tj, c, scale, tj->drive.vlimit));
+        next->kr = next->rest ? 0 : kr;
+        tj->back_sweep++;
+    }
+    return 0;
+}
+
+/* Takes over the direction asked for, at rest. */
+static void set_direction(struct traj *tj)
+{
+    int dir = tj->drive.reverse ? -1 : 1;
+
+    if (dir == tj->dir || tj->v > 0 || tj->in_mark) return;
+    tj->dir = dir;
+    tj->waiting = 0;
+    if (dir < 0) {
+        tj->back_sweep = tj->cell_first;
+        tj->back_scale = tj->drive.scale;
+    } else {
+        tj->sweeping = 0;
+        tj->sweep_anew = 1;
+    }
+}
+
 void traj_cycle(struct traj *tj)
 {
     tj->acc = 0;
     if (tj->end == tj->first) return;
+    set_direction(tj);
     work(tj);
-    if (tj->cell_end != tj->cell_first && !tj->waiting) {
-        struct traj_cell *c = cell_at(tj, tj->cell);
-        /* The very first cell of a path: its gate is tested here, later ones on arrival. */
-        if (c->rest && tj->s == c->s0 && tj->dir > 0 && !traj_seg(tj, c->seg)->released) {
-            tj->waiting = 1;
-            tj->wait_seg = c->seg;
-        } else {
-            step_path(tj);
-        }
+    if (tj->cell_end != tj->cell_first && !tj->in_mark) {
+        check_gate(tj);
+        /* Backward, motion begins when its envelope is complete; a later sweep only changes feeds. */
+        if (!tj->waiting && (tj->dir > 0 || sweep_back(tj) || tj->v > 0)) step_path(tj);
     }
     retire(tj);
+    if (tj->cell_end != tj->cell_first || traj_cseg(tj, tj->cur)->mark) check_gate(tj);
     traj_pose(tj, tj->s, tj->pos);
 }
 
 int64_t traj_waiting(const struct traj *tj)
 {
-    return tj->waiting ? (int64_t)tj->wait_seg : -1;
+    if (!tj->waiting) return -1;
+    return tj->cur == tj->first && !traj_cseg(tj, tj->cur)->released ? tj->cur : tj->cur + 1;
 }
 
 void traj_release(struct traj *tj)
 {
     if (!tj->waiting) return;
-    traj_seg(tj, tj->wait_seg)->released = 1;
+    tj->cur = (uint32_t)traj_waiting(tj);
+    struct traj_seg *g = traj_seg(tj, tj->cur);
+    g->released = 1;
     tj->waiting = 0;
+    tj->in_mark = g->mark;
+}
+
+void traj_finish(struct traj *tj)
+{
+    tj->in_mark = 0;
 }
 
 int traj_at_rest(const struct traj *tj)
@@ -702,7 +823,8 @@ int traj_at_rest(const struct traj *tj)
 int traj_done(const struct traj *tj)
 {
     if (tj->end == tj->first) return 1;
-    return tj->v <= 0 && tj->dir > 0 && tj->s >= traj_cseg(tj, tj->end - 1)->s1;
+    return tj->v <= 0 && tj->dir > 0 && !tj->in_mark && !tj->waiting && tj->cur + 1 == tj->end &&
+           tj->s >= traj_cseg(tj, tj->end - 1)->s1;
 }
 
 int traj_active(const struct traj *tj)
@@ -712,4 +834,10 @@ int traj_active(const struct traj *tj)
     if (tj->s - g->s0 < g->w) return 2;
     if (tj->cur + 1 != tj->end && g->s1 - tj->s < traj_cseg(tj, tj->cur + 1)->w) return 2;
     return 1;
+}
+
+double traj_lag(const struct traj *tj)
+{
+    (void)tj;
+    return 0;
 }

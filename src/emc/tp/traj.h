@@ -54,6 +54,7 @@ struct traj_move {
     enum traj_end end;
     enum traj_follow follow;
     int rest_before; /* start from rest, and wait for traj_release() */
+    int mark;        /* no path: motion rests here from traj_release() to traj_finish() */
 };
 
 /* How a move joins the one before. */
@@ -77,6 +78,7 @@ struct traj_seg {
     /* the junction at the start of this move */
     enum traj_join join;
     int released;          /* JOIN_REST: may start */
+    int mark;              /* no path, see traj_move */
     int cut;               /* a cell must begin at s0 */
     double du[PATH_AXES];  /* jump of dp/ds */
     double dk[PATH_AXES];  /* jump of d2p/ds2 */
@@ -104,7 +106,8 @@ struct traj_drive {
     double vlimit;     /* cap of xyz/uvw speed, units/s */
     double sync_speed; /* for moves that follow the spindle, metric units/s */
     int hold;          /* stop, whatever the move follows */
-    int reverse;       /* run backward (changes at rest only) */
+    int reverse;       /* run backward (obeyed at rest) */
+    double stop_s;     /* come to rest at this place when it lies ahead in the direction of motion */
 };
 
 struct traj_limits {
@@ -116,7 +119,7 @@ struct traj {
     struct traj_limits lim;
     struct traj_drive drive;
 
-    /* moves: first .. cur .. end, free running counters */
+    /* moves: first .. cur .. end, free running counters; cur: the move that started last */
     uint32_t first, cur, end;
     double s_final;      /* the path is final up to here */
     int tail_forced;     /* s_final was moved to the end of the last move */
@@ -131,16 +134,19 @@ struct traj {
     uint32_t sweep;      /* next cell to look at */
     int sweeping;
     int sweep_full;      /* caps changed: do not stop early */
+    int sweep_anew;      /* the next sweep covers all cells */
     uint32_t swept_end;  /* cell_end when the last sweep began */
     double sweep_scale, sweep_vlimit;
+    uint32_t back_sweep;   /* next cell of the envelope for running backward; cell_end: done */
+    double back_scale;
 
     /* motion */
     double s, v;         /* v >= 0 */
     double acc;          /* along s, last cycle, signed by the direction of s */
     int dir;             /* +1, -1 */
     uint32_t cell;
-    int waiting;         /* at rest before move wait_seg until released */
-    uint32_t wait_seg;
+    int waiting;         /* at rest before move cur + 1 (cur, at the very start) until released */
+    int in_mark;         /* move cur is a mark that was released */
 
     double pos[PATH_AXES]; /* last position */
 
@@ -160,11 +166,16 @@ int64_t traj_append(struct traj *tj, const struct traj_move *move);
 void traj_cycle(struct traj *tj);
 /* The move before which motion waits; -1: does not wait. */
 int64_t traj_waiting(const struct traj *tj);
+/* Lets it start. */
 void traj_release(struct traj *tj);
+/* Ends a mark. */
+void traj_finish(struct traj *tj);
 /* At rest (no speed, nothing left in filters). */
 int traj_at_rest(const struct traj *tj);
 /* At rest at the end of all moves. */
 int traj_done(const struct traj *tj);
+/* Seconds by which the position lags behind what drive asks for. */
+double traj_lag(const struct traj *tj);
 /* Moves that shape the position now: 0 idle, 2 in a rounding, else 1. */
 int traj_active(const struct traj *tj);
 /* Position of the rounded path at s. */
