@@ -7,3 +7,15 @@ $(eval $(call program,milltask,$(addprefix src/emc/task/,main.cc task.cc task_pl
     nml linuxcncini rs274 tooldata linuxcnchal,$(TASK_FLAGS)))
 endif
 $(eval $(call program,linuxcncsvr,src/emc/task/linuxcncsvr.cc $(EMC_CLIENT_SOURCES),nml linuxcncini linuxcnchal,$(TASK_FLAGS)))
+
+# Test programs of tests/task: objects/test/task-NAME.
+define task_test
+TASK_TEST_OBJECTS_$(1) := $(call objs,ul,src/emc/task/test/$(1).cc src/emc/usr_intf/client.cc src/emc/nml/messages.cc)
+$(call objs,ul,src/emc/task/test/$(1).cc): EXTRA += $(TASK_FLAGS) -Isrc/emc/usr_intf
+$(O)/test/task-$(1): $$(TASK_TEST_OBJECTS_$(1)) $(T)/lib/libnml.so $(T)/lib/liblinuxcnchal.so
+	$$(call say,LINK,$$@)
+	$$(Q)mkdir -p $$(@D) && $$(CXX) $$(SAN) $$(LDFLAGS) -o $$@ $$(TASK_TEST_OBJECTS_$(1)) -L$(T)/lib -lnml -llinuxcnchal -Wl,-rpath,'$$$$ORIGIN/../../lib'
+DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/task/test/$(1).cc))
+EXTRA_TARGETS += $(O)/test/task-$(1)
+endef
+$(eval $(call task_test,command_table))
