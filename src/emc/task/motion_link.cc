@@ -61,6 +61,18 @@ emcmot_command_t MotionLink::axis_command(cmd_code_t code, int a) const {
 
 int MotionLink::send(emcmot_command_t &c) { return usrmotWriteEmcmotCommand(&c); }
 
+// A move is acknowledged before the servo cycle that takes it up has published queue and
+// in-position: until the next heartbeat motion counts as busy.
+int MotionLink::send_move(emcmot_command_t &c) {
+    int r = send(c);
+    emcmot_status_t now;
+    if (r == 0 && usrmotReadEmcmotStatus(&now) == 0) {
+        settling_ = true;
+        settle_from_ = now.heartbeat;
+    }
+    return r;
+}
+
 int MotionLink::send(cmd_code_t code) {
     emcmot_command_t c = command(code);
     return send(c);
@@ -418,7 +430,7 @@ int MotionLink::linear_move(const EMC_TRAJ_LINEAR_MOVE &m) {
     c.acc = m.acc;
     c.turn = m.indexer_jnum;
     c.tag = m.tag;
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::circular_move(const EMC_TRAJ_CIRCULAR_MOVE &m) {
@@ -433,7 +445,7 @@ int MotionLink::circular_move(const EMC_TRAJ_CIRCULAR_MOVE &m) {
     c.ini_maxjerk = m.ini_maxjerk;
     c.acc = m.acc;
     c.tag = m.tag;
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::probe(const EMC_TRAJ_PROBE &m) {
@@ -446,7 +458,7 @@ int MotionLink::probe(const EMC_TRAJ_PROBE &m) {
     c.acc = m.acc;
     c.probe_type = m.probe_type;
     c.tag = m.tag;
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::rigid_tap(const EMC_TRAJ_RIGID_TAP &m) {
@@ -458,7 +470,7 @@ int MotionLink::rigid_tap(const EMC_TRAJ_RIGID_TAP &m) {
     c.acc = m.acc;
     c.scale = m.scale;
     c.tag = m.tag;
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::set_term_cond(int cond, double tolerance) {
@@ -598,7 +610,8 @@ void MotionLink::update(std::string *error) {
     t.feed_override_enabled = enables & FS_ENABLED;
     t.adaptive_feed_enabled = enables & AF_ENABLED;
     t.feed_hold_enabled = enables & FH_ENABLED;
-    t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT ? RCS_ERROR : t.inpos && t.queue == 0 ? RCS_DONE : RCS_EXEC;
+    if (settling_ && s.heartbeat != settle_from_) settling_ = false;
+    t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT ? RCS_ERROR : t.inpos && t.queue == 0 && !settling_ ? RCS_DONE : RCS_EXEC;
     if (config_changed) {
         t.maxVelocity = config_.limitVel;
         t.cycleTime = config_.trajCycleTime;

@@ -120,12 +120,14 @@ private:
     emcmot_command_t command(cmd_code_t code) const;
     emcmot_command_t joint_command(cmd_code_t code, int j) const;
     emcmot_command_t axis_command(cmd_code_t code, int a) const;
-    int send_axis_velocity(int a);
+    int send_move(emcmot_command_t &c);
     EMC_STAT &stat_;
     emcmot_status_t status_{};
     emcmot_config_t config_{};
     int id_ = 0, config_num_ = -1;
     bool attached_ = false;
+    bool settling_ = false;          // a move was given that the status does not show yet
+    uint64_t settle_from_ = 0;
     bool joint_error_shown_[EMCMOT_MAX_JOINTS] = {};
     int last_state_ = 0, last_wait_ = 0; // an S word sends these again
 };

@@ -4,6 +4,7 @@
 // list: task_execute.cc.
 #include "task.hh"
 
+#include <dlfcn.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 
 #include "kerf_clock.h"
+#include "kerf_paths.h"
 #include "rcs_print.hh"
 #include "task_text.hh"
 
@@ -22,6 +24,25 @@ namespace {
 constexpr double CHANNEL_RETRY_S = 1.0, CHANNEL_PATIENCE_S = 10.0, MESSAGE_PATIENCE_S = 5.0;
 constexpr int64_t MOTION_PATIENCE_NS = 60'000'000'000; // wall time
 constexpr int64_t MS = 1'000'000;
+
+// A pin, else a signal, else a parameter of that name as a number.
+bool hal_number(const char *name, double *value) {
+    hal_type_t type;
+    hal_data_u *data = nullptr;
+    bool connected;
+    if (hal_get_pin_value_by_name(name, &type, &data, &connected) != 0 && hal_get_signal_value_by_name(name, &type, &data, &connected) != 0 &&
+        hal_get_param_value_by_name(name, &type, &data) != 0)
+        return false;
+    switch (type) {
+    case HAL_BIT: *value = data->b ? 1 : 0; return true;
+    case HAL_FLOAT: *value = data->f; return true;
+    case HAL_S32: *value = data->s; return true;
+    case HAL_U32: *value = data->u; return true;
+    case HAL_S64: *value = static_cast<double>(data->ls); return true;
+    case HAL_U64: *value = static_cast<double>(data->lu); return true;
+    default: return false;
+    }
+}
 
 int64_t wall_ns() {
     timespec t;
@@ -57,6 +78,26 @@ bool Task::connect_channels() {
         return false;
     };
     return connect("emcCommand", &command_channel_) && connect("emcStatus", &status_channel_) && connect("emcError", &error_channel_);
+}
+
+// The built-in interpreter, or the one of the library [TASK]INTERPRETER names.
+bool Task::make_interpreter() {
+    auto name = ini_.findString("INTERPRETER", "TASK");
+    if (!name || name->empty()) {
+        interp_ = std::make_unique<Interp>(*canon_);
+        return true;
+    }
+    std::string file = (*name)[0] == '/' ? *name : std::string(kerf_path(KERF_PATH_LIB)) + "/linuxcnc/" + *name;
+    void *library = dlopen(file.c_str(), RTLD_NOW);
+    auto make = library ? reinterpret_cast<makeInterp_t>(dlsym(library, "makeInterp")) : nullptr;
+    if (!make) {
+        const char *why = dlerror();
+        rcs_print_error("emcTaskInit: could not open interpreter '%s': %s\n", file.c_str(), why ? why : "it has no function makeInterp");
+        return false;
+    }
+    rcs_print("emcTaskInit: using custom interpreter '%s'\n", name->c_str());
+    interp_.reset(make(*canon_));
+    return interp_ != nullptr;
 }
 
 bool Task::start() {
@@ -122,9 +163,10 @@ bool Task::start() {
     canon_->source_line = [this] { return interp_ ? interp_->line() : 0; };
     canon_->user_code_exists = [this](int n) { return user_codes_.exists(n); };
     canon_->user_code_command = [this](int n, double p, double q) { return user_codes_.command(n, p, q); };
+    canon_->hal_lookup = hal_number;
     setenv("INI_FILE_NAME", ini_file_.c_str(), 1);
     update_motion();
-    interp_ = std::make_unique<Interp>(*canon_);
+    if (!make_interpreter()) return false;
     interp_->set_loop_on_main_m99(true);
     if (int r = plan_init(); r != 0) {
         rcs_print_error("can't initialize interpreter\n");

@@ -47,6 +47,7 @@ private:
     void watch_program_error();
     void publish();
     bool connect_channels();
+    bool make_interpreter();
 
     // ---- plan ----
     int refuse(const NMLmsg &m, Situation s);

@@ -11,6 +11,7 @@
  *
  * Thread: [task]. Source: INI reference, section 4 (Tcl).
  */
+#include "emc_tcl.hh"
 #include "inifile.hh"
 
 #include <string>
@@ -159,5 +160,5 @@ extern "C" int Linuxcnc_Init(Tcl_Interp *interp)
                     {"emc_ini_filename", ini_filename}};
     for (auto &c : commands) Tcl_CreateObjCommand(interp, c.name, c.function, state, nullptr);
     Tcl_CallWhenDeleted(interp, destroy, state);
-    return TCL_OK;
+    return emc_tcl_init(interp);
 }
