@@ -16,16 +16,21 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Where modules are installed: below PREFIX, or "=" and an absolute path. */
+#ifndef KERF_MODULE_DIR
+#define KERF_MODULE_DIR "/lib/linuxcnc/modules"
+#endif
+
 #define PATH_LEN 1024 /* longer trees are refused by falling back to /usr */
 
 static const struct {
     const char *in_place; /* below TOP */
-    const char *installed; /* below PREFIX; a leading "!" means below SYSCONF */
+    const char *installed; /* below PREFIX; a leading "!" means below SYSCONF, "=" absolute */
 } places[KERF_PATH_COUNT] = {
     [KERF_PATH_HOME] = {"", ""},
     [KERF_PATH_BIN] = {"/bin", "/bin"},
     [KERF_PATH_LIB] = {"/lib", "/lib"},
-    [KERF_PATH_RTLIB] = {"/rtlib", "/lib/linuxcnc/modules"},
+    [KERF_PATH_RTLIB] = {"/rtlib", KERF_MODULE_DIR},
     [KERF_PATH_SCRIPTS] = {"/scripts", "/bin"},
     [KERF_PATH_REALTIME] = {"/scripts/realtime", "/lib/linuxcnc/realtime"},
     [KERF_PATH_RTAPICONF] = {"/scripts/rtapi.conf", "!/linuxcnc/rtapi.conf"},
@@ -91,8 +96,8 @@ static void paths_find(void)
     }
     for (int i = 0; i < KERF_PATH_COUNT; i++) {
         const char *tail = in_place ? places[i].in_place : places[i].installed;
-        const char *base = *tail == '!' ? sysconf_dir : top;
-        snprintf(paths[i], sizeof paths[i], "%.*s%s", PATH_LEN, base, *tail == '!' ? tail + 1 : tail);
+        const char *base = *tail == '!' ? sysconf_dir : *tail == '=' ? "" : top;
+        snprintf(paths[i], sizeof paths[i], "%.*s%s", PATH_LEN, base, *tail == '!' || *tail == '=' ? tail + 1 : tail);
     }
 }
 

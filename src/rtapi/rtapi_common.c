@@ -70,25 +70,19 @@ rtapi_msg_handler_t rtapi_get_msg_handler(void)
     return atomic_load(&msg_handler);
 }
 
-/* The segment of module ids. The first word was a lock in other versions; the
- * counter is atomic, so nobody can die holding it. */
-struct uuid_segment {
-    unsigned long unused;
-    _Atomic int last;
-};
 static _Atomic int uuid_shmem = -1;
 
 int rtapi_init(const char *modname)
 {
     (void)modname;
-    int id = rtapi_shmem_new(RTAPI_UUID_KEY, 0, sizeof(struct uuid_segment));
+    int id = rtapi_shmem_new(RTAPI_UUID_KEY, 0, sizeof(struct rtapi_uuid_segment));
     void *mem;
     if (id < 0 || rtapi_shmem_getptr(id, &mem) < 0) {
         rtapi_print_msg(RTAPI_MSG_ERR, "rtapi_init: could not open shared memory for uuid\n");
         return -EINVAL;
     }
     atomic_store(&uuid_shmem, id);
-    return atomic_fetch_add(&((struct uuid_segment *)mem)->last, 1) + 1;
+    return atomic_fetch_add(&((struct rtapi_uuid_segment *)mem)->last_id, 1) + 1;
 }
 
 int rtapi_exit(int module_id)

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <sys/types.h>
 #include "rtapi.h"
+#include "rtapi_atomic.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,9 +35,19 @@ extern struct rtapi_shmem_policy rtapi_shmem_policy;
  * only they are locked. Below, all pages are touched at attach. */
 #define RTAPI_SHMEM_SPARSE_MIN (4UL << 20)
 
-/* Removes segment `key` (of this instance) if no process is attached to it.
- * 1: removed, 0: none or in use, -errno. [init] */
-int rtapi_shmem_remove_stale(int key);
+/* The segment of module ids. It also knows which segments the instance ever had,
+ * so that left-over ones are found. Counter and entries are atomic: nobody can die
+ * holding a lock in it. A key of 0 is a free entry; entries are never taken back. */
+#define RTAPI_KEYS_MAX 1000
+struct rtapi_uuid_segment {
+    unsigned long unused; /* a lock in other versions */
+    rtapi_atomic_int last_id;
+    rtapi_atomic_int keys[RTAPI_KEYS_MAX]; /* as mapped for the instance */
+};
+
+/* Removes this instance's segments that no process is attached to, also those of
+ * `extra` (documented keys; count may be 0). Returns how many it removed. [init] */
+int rtapi_shmem_remove_stale(const int *extra, int count);
 
 #ifdef __cplusplus
 }

@@ -15,6 +15,7 @@
 
 #include <errno.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
@@ -61,14 +62,58 @@ static int remove_if_unused(int key)
     return shmctl(shmid, IPC_RMID, NULL) < 0 ? -errno : 1;
 }
 
-int rtapi_shmem_remove_stale(int key)
+/* Removes what the registry names and nobody uses. Called with the instance lock
+ * held. */
+static int remove_registered(void)
+{
+    int removed = 0, shmid = shmget(kerf_instance_key(RTAPI_UUID_KEY), sizeof(struct rtapi_uuid_segment), 0);
+    void *mem = shmid < 0 ? (void *)-1 : shmat(shmid, NULL, SHM_RDONLY);
+    if (mem == (void *)-1) {
+        return 0;
+    }
+    struct rtapi_uuid_segment *uuid = mem;
+    for (int i = 0; i < RTAPI_KEYS_MAX; i++) {
+        int key = atomic_load_explicit(&uuid->keys[i], memory_order_relaxed);
+        removed += key != 0 && remove_if_unused(key) > 0;
+    }
+    shmdt(mem);
+    return removed;
+}
+
+int rtapi_shmem_remove_stale(const int *extra, int count)
 {
     int lock = kerf_instance_lock("shm");
     as_root(true);
-    int result = remove_if_unused(kerf_instance_key(key));
+    int removed = remove_registered();
+    for (int i = 0; i < count; i++) {
+        removed += remove_if_unused(kerf_instance_key(extra[i])) > 0;
+    }
+    removed += remove_if_unused(kerf_instance_key(RTAPI_UUID_KEY)) > 0;
     as_root(false);
     kerf_instance_unlock(lock);
-    return result;
+    return removed;
+}
+
+/* Notes the key in the registry, if this process has it. Instance lock held. */
+static void register_key(int key)
+{
+    int uuid_key = kerf_instance_key(RTAPI_UUID_KEY);
+    for (int i = 0; i < MAX_SHM; i++) {
+        if (segments[i].refs == 0 || segments[i].key != uuid_key || key == uuid_key) {
+            continue;
+        }
+        struct rtapi_uuid_segment *uuid = segments[i].mem;
+        for (int k = 0; k < RTAPI_KEYS_MAX; k++) {
+            int found = atomic_load_explicit(&uuid->keys[k], memory_order_relaxed);
+            if (found == key) {
+                return;
+            }
+            if (found == 0) {
+                atomic_store(&uuid->keys[k], key);
+                return;
+            }
+        }
+    }
 }
 
 /* Locks what was attached. A sparse segment is attached while the process locks
@@ -101,6 +146,13 @@ static void *attach(int shmid, unsigned long size)
 /* Makes or opens the segment; under the instance lock. 0 or -errno, said why. */
 static int open_segment(struct segment *seg, int key, unsigned long size)
 {
+    if (key == kerf_instance_key(RTAPI_UUID_KEY)) {
+        struct shmid_ds info;
+        int old = shmget(key, 0, 0);
+        if (old >= 0 && shmctl(old, IPC_STAT, &info) == 0 && info.shm_nattch == 0) {
+            remove_registered(); /* all its users are dead: so are their segments */
+        }
+    }
     int removed = remove_if_unused(key);
     if (removed > 0) {
         rtapi_print_msg(RTAPI_MSG_WARN, "rtapi_shmem_new: removed left-over segment 0x%08x\n", key);
@@ -128,6 +180,7 @@ static int open_segment(struct segment *seg, int key, unsigned long size)
         return -err;
     }
     *seg = (struct segment){.key = key, .refs = 1, .shmid = shmid, .size = size, .mem = mem};
+    register_key(key);
     return 0;
 }
 

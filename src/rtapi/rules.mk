@@ -7,6 +7,11 @@ PUBLIC_HEADERS += $(addprefix src/rtapi/,rtapi.h rtapi_app.h rtapi_atomic.h rtap
     rtapi_math64.h rtapi_mutex.h rtapi_parport.h rtapi_pci.h rtapi_slab.h rtapi_stdint.h \
     rtapi_string.h rtapi_vsnprintf.h kerf_clock.h kerf_instance.h kerf_paths.h)
 
+# Installed modules: below the prefix wherever that is, or at an absolute place.
+KERF_MODULE_DIR := $(if $(filter $(prefix)/%,$(moduledir)),$(patsubst $(prefix)%,%,$(moduledir)),=$(moduledir))
+KERF_PATHS_OBJECTS := $(foreach f,ul host,$(call objs,$(f),src/rtapi/kerf_paths.c))
+$(KERF_PATHS_OBJECTS): EXTRA += -DKERF_MODULE_DIR='"$(KERF_MODULE_DIR)"'
+
 # The realtime host. Its parts are compiled with RTAPI defined (objects/host). What it offers to
 # modules is listed in host.exports. It must not link liblinuxcnchal: modules bring HAL's names.
 RTAPI_HOST_SOURCES := $(addprefix src/rtapi/,kerf_instance.c kerf_paths.c kerf_clock.c kerf_vclock.c rtapi_common.c \
@@ -16,7 +21,7 @@ RTAPI_HOST_OBJECTS := $(call objs,host,$(RTAPI_HOST_SOURCES))
 DEPS += $(RTAPI_HOST_OBJECTS:.o=.d)
 $(O)/host/%.o: %.c | headers
 	$(call say,CC,$< (host))
-	$(Q)mkdir -p $(@D) && $(CC) -std=gnu11 $(CFLAGS) $(COMMON) -DRTAPI -DUSPACE -c -o $@ $<
+	$(Q)mkdir -p $(@D) && $(CC) -std=gnu11 $(CFLAGS) $(COMMON) -DRTAPI -DUSPACE $(EXTRA) -c -o $@ $<
 PROGRAMS += $(T)/bin/rtapi_app
 $(T)/bin/rtapi_app: $(RTAPI_HOST_OBJECTS) src/rtapi/host/host.exports
 	$(call say,LINK,$@)

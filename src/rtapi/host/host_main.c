@@ -35,6 +35,7 @@
 #define MESSAGE_MAX 65535
 #define CONNECT_LIMIT_MS 3000
 #define EXIT_LIMIT_MS 5000
+#define PING_LIMIT_S 5
 #define PATH_LIMIT (sizeof((struct sockaddr_un *)0)->sun_path - 2)
 
 /* ---- Socket ------------------------------------------------------------- */
@@ -231,12 +232,19 @@ static void wait_for_end(int fd)
     }
 }
 
-static int client(int fd, int argc, char **argv)
+/* Status 2: the daemon is there but does not answer within limit_s (0: no limit). */
+static int client(int fd, int argc, char **argv, int limit_s)
 {
     int32_t result;
+    struct timeval limit = {limit_s, 0};
+    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     if (!send_words(fd, argc, argv)) {
         fprintf(stderr, "rtapi_app: failed to write to master\n");
         return 255;
+    }
+    struct pollfd answer = {fd, POLLIN, 0};
+    if (limit_s > 0 && poll(&answer, 1, limit_s * 1000) == 0) {
+        return 2;
     }
     if (!recv_reply(fd, &result)) {
         fprintf(stderr, "rtapi_app: failed to read from master\n");
@@ -368,6 +376,14 @@ static bool serve(int fd)
     return !end;
 }
 
+/* Segments of this instance that killed processes left, also those that an older
+ * registry does not name. */
+static int remove_stale(void)
+{
+    static const int keys[] = {0x48414c32 /* HAL */, (int)0x90280a48 /* RTAPI */, 0x4b434c4b /* virtual clock */};
+    return rtapi_shmem_remove_stale(keys, sizeof keys / sizeof *keys);
+}
+
 static void print_banner(const struct rtapi_backend_ops *backend)
 {
     rtapi_print_msg(RTAPI_MSG_ERR, "Note: Using %s\n", backend->banner);
@@ -393,6 +409,10 @@ static void daemon_main(int listener)
         host_realtime_setup();
     }
     host_messages_start();
+    int removed = remove_stale();
+    if (removed > 0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "Note: removed %d shared memory segments of processes that were killed\n", removed);
+    }
     host_load(1, load);
     print_banner(backend);
     struct pollfd fds[2] = {{listener, POLLIN, 0}, {signals, POLLIN, 0}};
@@ -450,18 +470,21 @@ static int check_rt(void)
  * ones may have left. Only this instance's keys, only segments nobody uses. */
 static int stop_and_clean(void)
 {
-    static const unsigned keys[] = {0x48414c32 /* HAL */, 0x90280a48 /* RTAPI */, RTAPI_UUID_KEY,
-                                    0x4b434c4b /* virtual clock */};
     char word[] = "exit", *words[] = {word};
     int fd = try_connect();
     if (fd >= 0) {
-        client(fd, 1, words);
+        struct ucred peer = {0};
+        socklen_t size = sizeof peer;
+        getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size);
+        if (client(fd, 1, words, EXIT_LIMIT_MS / 1000) == 2) {
+            fprintf(stderr, "ERROR: rtapi_app failed to die: killing process %d\n", (int)peer.pid);
+            kill(peer.pid, SIGKILL);
+            wait_for_end(fd);
+        }
     } else {
         fprintf(stderr, "rtapi_app: exit received while not running\n");
     }
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        rtapi_shmem_remove_stale((int)keys[i]);
-    }
+    remove_stale();
     return 0;
 }
 
@@ -528,5 +551,6 @@ int main(int argc, char **argv)
             nanosleep(&pause, NULL);
         }
     }
-    return client(fd, words, word);
+    bool ping = words == 1 && strcmp(word[0], "ping") == 0;
+    return client(fd, words, word, ping && !start ? PING_LIMIT_S : 0);
 }
