@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * program.cc - see program.hh.
+ */
+#include "program.hh"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+void Box::add(double x, double y, double z)
+{
+    const double p[3] = {x, y, z};
+    for (size_t i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+    }
+}
+
+double ProgramPath::cutting_time(double max_feed) const
+{
+    double minutes = 0;
+    for (const auto &[feed, length] : feed_lengths) {
+        const double rate = feed > 0 ? std::min(double(feed), max_feed) : max_feed;
+        if (rate > 0) minutes += length / rate;
+    }
+    return minutes * 60;
+}
+
+namespace
+{
+
+class PathCanon final : public PreviewCanon
+{
+  public:
+    PathCanon(ProgramPath &p, const ProgramOptions &o) : path(p), options(o), here(o.start) {}
+    Interp *interp = nullptr;
+
+    double GET_EXTERNAL_LENGTH_UNITS() override { return options.linear_units; }
+    double GET_EXTERNAL_ANGLE_UNITS() override { return options.angular_units; }
+    int GET_EXTERNAL_AXIS_MASK() override { return options.axis_mask; }
+    bool GET_BLOCK_DELETE() override { return options.block_delete; }
+    std::string GET_EXTERNAL_PARAMETER_FILE_NAME() override { return options.parameter_file; }
+    CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override
+    {
+        return size_t(idx) < options.tools.size() ? options.tools[size_t(idx)] : tooldata_entry_init();
+    }
+    void print_line(const char *) override {}
+
+    /// All that came before belongs to the preparation.
+    void begin_program()
+    {
+        first_move = true;
+    }
+
+  protected:
+    void on_g5x(int, const EmcPose &o) override { frame.g5x = point9(o); }
+    void on_g92(const EmcPose &o) override { frame.g92 = point9(o); }
+    void on_rotation(double degrees) override
+    {
+        frame.cosine = cos(degrees * (M_PI / 180));
+        frame.sine = sin(degrees * (M_PI / 180));
+    }
+    void on_plane(int) override {}
+    void on_feed_rate(double rate) override { feed = float(rate); }
+    void on_tool_offset(int, const EmcPose &o) override
+    {
+        first_move = true;
+        const Point9 fresh = point9(o);
+        for (size_t i = 0; i < 9; ++i) here[i] += tool[i] - fresh[i];
+        tool = fresh;
+        need_jump = true;
+    }
+    void on_traverse(int line, const EmcPose &end) override
+    {
+        if (suppress > 0) return;
+        const Point9 to = frame.to_machine(point9(end));
+        if (first_move) {
+            here = to;
+            need_jump = true;
+            return;
+        }
+        piece(line, to, PathKind::TRAVERSE);
+    }
+    void on_feed(int line, const EmcPose &end) override
+    {
+        if (suppress > 0) return;
+        first_move = false;
+        piece(line, frame.to_machine(point9(end)), PathKind::FEED);
+    }
+    void on_probe(int line, const EmcPose &end) override { on_feed(line, end); }
+    void on_tap(int line, double x, double y, double z) override
+    {
+        if (suppress > 0) return;
+        first_move = false;
+        Point9 p = frame.from_machine(here);
+        p[0] = x;
+        p[1] = y;
+        p[2] = z;
+        const Point9 back = here;
+        piece(line, frame.to_machine(p), PathKind::FEED);
+        piece(line, back, PathKind::FEED);
+    }
+    void on_arc(int line, double x1, double y1, double cx, double cy, int rot, double z1, const EmcPose &end) override
+    {
+        if (suppress > 0) return;
+        first_move = false;
+        segments.clear();
+        arc_segments(segments, frame, plane, here, x1, y1, cx, cy, rot, z1, point9(end), options.arc_division,
+                     25.4);
+        for (const Point9 &p : segments) piece(line, p, PathKind::ARC);
+    }
+    void on_dwell(int line, double seconds) override
+    {
+        if (suppress > 0) return;
+        path.dwell_time += seconds;
+        mark(line, false);
+    }
+    void on_user_m(int line, int, double, double) override
+    {
+        if (suppress > 0) return;
+        mark(line, true);
+    }
+    void on_tool_change(int, int toolno) override
+    {
+        first_move = true;
+        need_jump = true;
+        path.tool_changes.emplace_back(uint32_t(path.points.size()), toolno);
+    }
+    void on_comment(const char *text) override
+    {
+        const char *rest = strncmp(text, "AXIS,", 5) == 0 ? text + 5 : strncmp(text, "PREVIEW,", 8) == 0 ? text + 8 : nullptr;
+        if (!rest) return;
+        const std::string command(rest, strcspn(rest, ","));
+        if (command == "stop") stop = true;
+        else if (command == "hide") ++suppress;
+        else if (command == "show") --suppress;
+        else if (command == "notify") {
+            ++path.notify;
+            const char *comma = strchr(rest, ',');
+            path.notify_message = comma ? std::string(comma + 1, strcspn(comma + 1, ","))
+                                        : "(AXIS,notify):" + std::to_string(path.notify);
+        }
+    }
+    void on_message(const char *text) override
+    {
+        if (path.messages.size() < 1000) path.messages.emplace_back(text);
+    }
+    int last_line() override { return interp ? interp->sequence_number() : 0; }
+
+  public:
+    bool stop = false; // (AXIS,stop)
+
+  private:
+    void vertex(int line, const Point9 &p, PathKind kind)
+    {
+        std::array<float, 9> v;
+        for (size_t i = 0; i < 9; ++i) v[i] = float(p[i]);
+        path.points.push_back(v);
+        path.lines.push_back(line);
+        path.kinds.push_back(uint8_t(kind));
+    }
+    void extend(const Point9 &p)
+    {
+        path.extents.add(p[0] + tool[0], p[1] + tool[1], p[2] + tool[2]);
+        path.extents_notool.add(p[0], p[1], p[2]);
+        if (frame.sine == 0) {
+            path.extents_unrotated.add(p[0] + tool[0], p[1] + tool[1], p[2] + tool[2]);
+            path.extents_notool_unrotated.add(p[0], p[1], p[2]);
+            return;
+        }
+        const double dx = p[0] - frame.g5x[0], dy = p[1] - frame.g5x[1];
+        const double x = dx * frame.cosine + dy * frame.sine + frame.g5x[0];
+        const double y = -dx * frame.sine + dy * frame.cosine + frame.g5x[1];
+        path.extents_unrotated.add(x + tool[0], y + tool[1], p[2] + tool[2]);
+        path.extents_notool_unrotated.add(x, y, p[2]);
+    }
+    void piece(int line, const Point9 &to, PathKind kind)
+    {
+        if (need_jump || path.points.empty()) {
+            vertex(line, here, PathKind::JUMP);
+            extend(here);
+            need_jump = false;
+        }
+        vertex(line, to, kind);
+        extend(to);
+        const double length = sqrt((to[0] - here[0]) * (to[0] - here[0]) + (to[1] - here[1]) * (to[1] - here[1]) +
+                                   (to[2] - here[2]) * (to[2] - here[2]));
+        if (kind == PathKind::TRAVERSE) {
+            path.rapid_length += length;
+        } else {
+            path.cutting_length += length;
+            if (!feed_length || feed_key != feed) {
+                feed_length = &path.feed_lengths[feed];
+                feed_key = feed;
+            }
+            *feed_length += length;
+        }
+        ++path.moves;
+        here = to;
+    }
+    void mark(int line, bool user_m)
+    {
+        const int p = plane == CANON_PLANE_XZ ? 1 : plane == CANON_PLANE_YZ ? 2 : 0;
+        path.marks.push_back({line, here[0], here[1], here[2], p, user_m});
+    }
+
+    ProgramPath &path;
+    const ProgramOptions &options;
+    PreviewFrame frame;
+    Point9 here;
+    Point9 tool{};
+    float feed = 60, feed_key = 0;
+    double *feed_length = nullptr;
+    bool first_move = true, need_jump = true;
+    int suppress = 0;
+    std::vector<Point9> segments;
+};
+
+double wall_seconds()
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &t); // how long a person waits: wall time
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+} // namespace
+
+void read_program(ProgramPath &path, const std::string &file, const ProgramOptions &options,
+                  const std::function<bool(int)> &progress)
+{
+    PathCanon canon(path, options);
+    Interp interp(canon);
+    canon.interp = &interp;
+    InterpOptions io;
+    io.ini_file = options.ini_file;
+    int status = interp.init(io);
+    if (status <= INTERP_MIN_ERROR) status = interp.open(file.c_str());
+    for (size_t i = 0; i < options.init_codes.size() && status <= INTERP_MIN_ERROR; ++i)
+        status = interp.execute(options.init_codes[i].c_str());
+    canon.begin_program();
+    double asked = wall_seconds();
+    int count = 0;
+    bool ended = status > INTERP_MIN_ERROR;
+    while (!ended) {
+        status = interp.read();
+        path.last_line = interp.sequence_number();
+        if (status == INTERP_OK || status == INTERP_EXECUTE_FINISH) status = interp.execute();
+        ended = status != INTERP_OK && status != INTERP_EXECUTE_FINISH;
+        if (canon.stop) break;
+        if ((++count & 0x3ff) == 0 && progress) {
+            const double now = wall_seconds();
+            if (now - asked < 0.1) continue;
+            asked = now;
+            if (progress(path.last_line)) {
+                path.aborted = true;
+                break;
+            }
+        }
+    }
+    path.result = status;
+    if (status > INTERP_MIN_ERROR) {
+        path.error = interp.error_text(status);
+        path.fault = interp.fault();
+        if (path.fault.line > 0) path.last_line = path.fault.line;
+    }
+    path.points.shrink_to_fit();
+    path.lines.shrink_to_fit();
+    path.kinds.shrink_to_fit();
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * program.hh - a whole program as arrays: the tool path for drawing, measuring, picking.
+ *
+ * Units:  inches, degrees, inches a minute, seconds; machine coordinates of the
+ *         controlled point (work offsets applied, tool offset not)
+ * Source: preview sheet, sections 8 and 9
+ */
+#ifndef KERF_PROGRAM_HH
+#define KERF_PROGRAM_HH
+
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "interp.hh"
+#include "preview_canon.hh"
+
+/// What a piece of the path is; the numbers are part of the Python interface.
+enum class PathKind : uint8_t { TRAVERSE = 0, FEED = 1, ARC = 2, JUMP = 3, DWELL = 4, TOOL_CHANGE = 5 };
+
+struct Box {
+    std::array<double, 3> low{9e99, 9e99, 9e99}, high{-9e99, -9e99, -9e99};
+    void add(double x, double y, double z);
+    bool empty() const { return low[0] > high[0]; }
+};
+
+struct ProgramMark {
+    int line;
+    double x, y, z;
+    int plane;     // 0 XY, 1 XZ, 2 YZ
+    bool user_m;   // M1xx, else a dwell
+};
+
+/// What a program is read with.
+struct ProgramOptions {
+    std::string parameter_file, ini_file;
+    std::vector<std::string> init_codes;
+    std::vector<CANON_TOOL_TABLE> tools;
+    int axis_mask = 0x1ff;
+    double linear_units = 1, angular_units = 1; // machine units per mm, per degree
+    int arc_division = 64;
+    bool block_delete = false;
+    Point9 start{}; // machine position, inches
+};
+
+/// The path of a program. Vertex n ends a piece that began at vertex n-1; a JUMP vertex
+/// begins a new run.
+struct ProgramPath {
+    std::vector<std::array<float, 9>> points;
+    std::vector<int32_t> lines;
+    std::vector<uint8_t> kinds;
+    std::vector<std::pair<uint32_t, int>> tool_changes; // vertex, tool number
+    std::vector<ProgramMark> marks;
+    std::vector<std::string> messages;
+    Box extents, extents_notool, extents_unrotated, extents_notool_unrotated;
+    double rapid_length = 0, cutting_length = 0, dwell_time = 0;
+    std::map<float, double> feed_lengths; // cutting length by feed rate
+    size_t moves = 0;
+    int result = 0, last_line = 0;
+    std::string error;
+    Fault fault;
+    bool aborted = false;
+    int notify = 0;
+    std::string notify_message;
+
+    double cutting_time(double max_feed) const; ///< s; max_feed: in/min
+};
+
+/// Reads a program. progress(line) is asked about ten times a second; true stops.
+void read_program(ProgramPath &path, const std::string &file, const ProgramOptions &options,
+                  const std::function<bool(int)> &progress);
+
+#endif
