@@ -20,7 +20,10 @@ $(COMP_GEN)/.stamp: $(COMP_FILES) $(HALCOMPILE_SOURCES)
 	$(Q)mkdir -p $(@D) && $(HALCOMPILE) --preprocess --output-dir=$(@D) $(filter %.comp,$(if $(filter %.py,$?),$^,$?)) && touch $@
 $(COMP_GENERATED): $(COMP_GEN)/.stamp ;
 
-$(foreach n,$(COMP_NAMES),$(eval $(call rtmodule,$(n),$(COMP_GEN)/$(n).c)))
+# Components with `option userspace` are programs.
+COMP_USER := thermistor
+$(foreach n,$(filter-out $(COMP_USER),$(COMP_NAMES)),$(eval $(call rtmodule,$(n),$(COMP_GEN)/$(n).c)))
+$(foreach n,$(COMP_USER),$(eval $(call program,$(n),$(COMP_GEN)/$(n).c,linuxcnchal -lm)))
 
 # Modules in C.
 COMP_C_PARTS :=
