@@ -3,9 +3,11 @@
  * simple_tp.h - one-dimensional planner of joint jogs, homing, axis jogs and external offsets.
  *
  * Units: joint or axis units (mm, inch or degree) and seconds.
- * Invariant: with constant limits the position sequence stays within max_vel
- * and max_acc, with max_jerk > SIMPLE_TP_MIN_JERK and planner type 1 within
- * max_jerk too; a target that lies farther than the stopping distance is not overshot.
+ * Invariants, for any sequence of targets and enables with constant limits:
+ * (1) differences of consecutive positions stay within max_vel, max_acc and,
+ * where max_jerk > SIMPLE_TP_MIN_JERK, max_jerk; (2) a target farther away than
+ * the stopping distance is reached exactly; overshoot: none, jerk-limited at most
+ * 0.05 max_jerk T^3 (SIMPLE_TP_OVERSHOOT).
  */
 #ifndef KERF_SIMPLE_TP_H
 #define KERF_SIMPLE_TP_H
@@ -15,6 +17,9 @@ extern "C" {
 #endif
 
 #define SIMPLE_TP_MIN_JERK 0.0001 /* units/s^3; at or below: no jerk limit */
+
+/* Bound of the overshoot of a jerk-limited approach, in parts of max_jerk T^3. */
+#define SIMPLE_TP_OVERSHOOT 0.05
 
 typedef struct simple_tp {
     double pos_cmd;   /* target, may change at any time */
@@ -29,8 +34,14 @@ typedef struct simple_tp {
     int active;       /* 1: moving or about to */
 } simple_tp_t;
 
-/* [servo] One step of period (s, > 0). planner_type: 0 trapezoidal, 1 jerk-limited. */
-void simple_tp_update(simple_tp_t *tp, double period, int planner_type);
+/* [servo] One step of period (s, > 0). Trapezoidal unless max_jerk is set. Cost: bounded. */
+void simple_tp_update(simple_tp_t *tp, double period);
+
+/* [servo] Takes over a motion: position, speed and acceleration; not enabled, so that it stops. */
+void simple_tp_adopt(simple_tp_t *tp, double pos, double vel, double acc);
+
+/* [any] Signed distance (units) from here to rest when stopping now. */
+double simple_tp_stop_distance(const simple_tp_t *tp, double period);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * mode.c - enabling, free, teleop and coordinated mode; faults; kinematics switch; homing.
+ *
+ * In:     requests of the command handler, joint flags, pins
+ * Out:    motionFlag, motion_state, what planners start from
+ * Thread: servo
+ * Method: requests are kept until the machine is at rest; joints keep their
+ *         commanded position and speed over every change of mode.
+ */
+#include <limits.h>
+#include <math.h>
+#include "motion_priv.h"
+
+#define INTERPOLATOR_CYCLES 3 /* history of the cubic beyond the newest point */
+
+int kinematics_forward(struct motion *m, const double *joint, EmcPose *pose)
+{
+    double q[EMCMOT_MAX_JOINTS];
+    int n = kin_joints(m);
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        q[j] = j < n ? joint[j] : 0.0;
+    EmcPose p = *pose;
+    int r = kinematicsForward(q, &p, &m->fflags, &m->iflags);
+    if (r >= 0 && !emcPoseValid(&p))
+        r = -1;
+    if (r >= 0)
+        *pose = p;
+    return r;
+}
+
+int kinematics_inverse(struct motion *m, const EmcPose *pose, double *joint)
+{
+    return kinematicsInverse(pose, joint, &m->iflags, &m->fflags);
+}
+
+void abort_planner(struct motion *m) { tpAbort(&m->tp); }
+
+void fail_motion(struct motion *m)
+{
+    abort_planner(m);
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
+}
+
+int coord_in_position(struct motion *m)
+{
+    if (!tpIsDone(&m->tp))
+        m->settle = 0;
+    else if (m->settle < INT_MAX)
+        m->settle++;
+    return m->settle > INTERPOLATOR_CYCLES * m->interpolation_rate;
+}
+
+/* ---- requests ---- */
+
+static int unhomed_refusal(struct motion *m, const char *text)
+{
+    if (m->kin_type == KINEMATICS_IDENTITY || get_allhomed())
+        return 0;
+    report_error("%s", text);
+    return 1;
+}
+
+void request_free(struct motion *m)
+{
+    axes_abort(m, 0);
+    m->internal->coordinating = m->internal->teleoperating = 0;
+}
+
+void request_coord(struct motion *m)
+{
+    m->internal->coordinating = 1;
+    m->internal->teleoperating = 0;
+    if (unhomed_refusal(m, "all joints must be homed before going into coordinated mode"))
+        m->internal->coordinating = 0;
+}
+
+void request_teleop(struct motion *m)
+{
+    if (unhomed_refusal(m, "all joints must be homed before going into teleop mode"))
+        return;
+    for (int j = 0; j < all_joints(m); j++)
+        m->joint[j].free_tp.enable = 0;
+    m->internal->teleoperating = 1;
+    m->internal->coordinating = 0;
+}
+
+/* ---- transitions ---- */
+
+static void disable(struct motion *m)
+{
+    tpClear(&m->tp);
+    m->aligning = 0;
+    for (int j = 0; j < all_joints(m); j++) {
+        emcmot_joint_t *jt = &m->joint[j];
+        simple_tp_adopt(&jt->free_tp, jt->pos_cmd, 0.0, 0.0);
+        jt->kb_jjog_active = jt->wheel_jjog_active = 0;
+        if (is_active(jt)) {
+            set_joint_flag(jt, EMCMOT_JOINT_INPOS_BIT, 1);
+            set_joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT, 0);
+        }
+        if (!get_home_is_idle(j))
+            do_cancel_homing(j);
+    }
+    axes_abort(m, 1);
+    set_motion_flag(m, EMCMOT_MOTION_ENABLE_BIT, 0);
+    set_motion_flag(m, EMCMOT_MOTION_INPOS_BIT, 1);
+    m->status->probing = 0;
+}
+
+static void enable(struct motion *m)
+{
+    if (m->eoffset_limited) {
+        report_error("Note: Motion enabled after reaching a coordinate soft limit with active external offsets");
+        m->eoffset_limited = 0;
+        hal_set_bool(m->pins->eoffset_limited, 0);
+    }
+    axis_zero_eoffsets(m);
+    tpSetPos(&m->tp, &m->status->carte_pos_cmd);
+    for (int j = 0; j < all_joints(m); j++) {
+        emcmot_joint_t *jt = &m->joint[j];
+        simple_tp_adopt(&jt->free_tp, jt->pos_cmd, 0.0, 0.0);
+        if (is_active(jt))
+            set_joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT, 1);
+        if (!get_home_is_idle(j))
+            do_cancel_homing(j);
+        set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 0);
+    }
+    if (is_teleop(m))
+        axes_sync_to(m, &m->status->carte_pos_cmd);
+    if (is_teleop(m) || is_coord(m))
+        position_enter_cartesian(m);
+    set_motion_flag(m, EMCMOT_MOTION_ENABLE_BIT, 1);
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
+}
+
+static void enter_teleop(struct motion *m)
+{
+    EmcPose *pose = &m->status->carte_pos_cmd, base;
+    int from_coord = is_coord(m);
+    if (!from_coord) {
+        double q[EMCMOT_MAX_JOINTS];
+        for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+            q[j] = m->joint[j].pos_cmd;
+        kinematics_forward(m, q, pose);
+        position_enter_cartesian(m);
+    }
+    base = *pose;
+    axis_apply_eoffsets(m, &base, -1);
+    axes_sync_to(m, &base);
+    tpSetPos(&m->tp, &base);
+    set_motion_flag(m, EMCMOT_MOTION_TELEOP_BIT, 1);
+    set_motion_flag(m, EMCMOT_MOTION_COORD_BIT, 0);
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
+}
+
+static void enter_coord(struct motion *m)
+{
+    EmcPose *pose = &m->status->carte_pos_cmd, base;
+    if (!is_teleop(m))
+        position_enter_cartesian(m);
+    base = *pose;
+    axis_apply_eoffsets(m, &base, -1);
+    tpSetPos(&m->tp, &base);
+    m->status->overrideLimitMask = 0;
+    m->settle = INT_MAX;
+    set_motion_flag(m, EMCMOT_MOTION_COORD_BIT, 1);
+    set_motion_flag(m, EMCMOT_MOTION_TELEOP_BIT, 0);
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
+}
+
+static void enter_free(struct motion *m)
+{
+    position_enter_free(m);
+    set_motion_flag(m, EMCMOT_MOTION_COORD_BIT, 0);
+    set_motion_flag(m, EMCMOT_MOTION_TELEOP_BIT, 0);
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
+}
+
+/* At rest as the mode in effect means it. */
+static int may_change(struct motion *m)
+{
+    if (m->aligning)
+        return 0;
+    if (is_teleop(m)) {
+        if (axes_moving(m)) {
+            axes_abort(m, 0);
+            return 0;
+        }
+        return 1;
+    }
+    return is_inpos(m);
+}
+
+static void change_mode(struct motion *m)
+{
+    const emcmot_internal_t *want = m->internal;
+    int teleop = is_teleop(m), coord = is_coord(m);
+    int to_teleop = want->teleoperating && !teleop;
+    int to_coord = want->coordinating && !coord;
+    int to_free = !want->teleoperating && !want->coordinating && (teleop || coord);
+    if ((!to_teleop && !to_coord && !to_free) || !may_change(m))
+        return;
+    if (to_teleop)
+        enter_teleop(m);
+    else if (to_coord)
+        enter_coord(m);
+    else
+        enter_free(m);
+}
+
+void phase_mode(struct motion *m)
+{
+    if (!m->internal->enabling && is_enabled(m))
+        disable(m);
+    if (m->internal->enabling && !is_enabled(m))
+        enable(m);
+    if (is_enabled(m))
+        change_mode(m);
+    else if (m->internal->teleoperating != is_teleop(m) || m->internal->coordinating != is_coord(m)) {
+        /* nothing moves: flags follow the requests */
+        set_motion_flag(m, EMCMOT_MOTION_TELEOP_BIT, m->internal->teleoperating);
+        set_motion_flag(m, EMCMOT_MOTION_COORD_BIT, m->internal->coordinating);
+        set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
+    }
+    if (!is_enabled(m))
+        m->status->motion_state = EMCMOT_MOTION_DISABLED;
+    else if (is_teleop(m))
+        m->status->motion_state = EMCMOT_MOTION_TELEOP;
+    else if (is_coord(m))
+        m->status->motion_state = EMCMOT_MOTION_COORD;
+    else
+        m->status->motion_state = EMCMOT_MOTION_FREE;
+}
+
+/* ---- faults ---- */
+
+static void joint_fault(struct motion *m, int j, const char *fmt)
+{
+    emcmot_joint_t *jt = &m->joint[j];
+    if (!joint_flag(jt, EMCMOT_JOINT_ERROR_BIT)) {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+        report_error(fmt, j);
+#pragma GCC diagnostic pop
+    }
+    set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 1);
+    m->internal->enabling = 0;
+}
+
+static void joint_faults(struct motion *m, int j)
+{
+    const emcmot_joint_t *jt = &m->joint[j];
+    int overridden = m->status->overrideLimitMask >> (2 * j);
+    if (!is_active(jt) || !joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT))
+        return;
+    if (!get_homing(j) && ((joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) && !(overridden & 2)) ||
+                           (joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT) && !(overridden & 1))))
+        joint_fault(m, j, "joint %d on limit switch error");
+    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT))
+        joint_fault(m, j, "joint %d amplifier fault");
+    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT))
+        joint_fault(m, j, "joint %d following error");
+}
+
+void phase_faults(struct motion *m)
+{
+    if (is_enabled(m)) {
+        if (!hal_get_bool(m->pins->enable)) {
+            report_error("motion stopped by enable input");
+            m->internal->enabling = 0;
+        }
+        for (int s = 0; s < m->config_work.numSpindles; s++)
+            if (m->status->spindle_status[s].fault) {
+                report_error("spindle %d amplifier fault", s);
+                m->internal->enabling = 0;
+            }
+        for (int i = 0; i < m->config_work.numMiscError; i++)
+            if (m->status->misc_error[i]) {
+                report_error("Motion Stopped by misc error %d", i);
+                m->internal->enabling = 0;
+            }
+    }
+    for (int j = 0; j < all_joints(m); j++)
+        joint_faults(m, j);
+}
+
+/* ---- kinematics switch, homing, planner type ---- */
+
+void phase_switch_kinematics(struct motion *m)
+{
+    if (!m->pins->switchkins_type)
+        return;
+    double value = hal_get_real(m->pins->switchkins_type);
+    int type = fabs(value) < 1e6 ? (int)value : -1;
+    if (type == m->switchkins_type || type == m->kins_failed_type)
+        return;
+    if (kinematicsSwitch(type) != 0) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "kinematicsSwitch() FAIL<%f>\n", value);
+        set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
+        m->kins_failed_type = type;
+        return;
+    }
+    m->kins_failed_type = INT_MIN;
+    m->switchkins_type = type;
+    double q[EMCMOT_MAX_JOINTS];
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        q[j] = m->joint[j].pos_cmd;
+    kinematics_forward(m, q, &m->status->carte_pos_cmd);
+    EmcPose base = m->status->carte_pos_cmd;
+    axis_apply_eoffsets(m, &base, -1);
+    tpSetPos(&m->tp, &base);
+    if (is_teleop(m))
+        axes_sync_to(m, &base);
+}
+
+void phase_homing(struct motion *m)
+{
+    if (m->status->motion_state != EMCMOT_MOTION_FREE)
+        return;
+    if (do_homing())
+        request_teleop(m);
+}
+
+void phase_planner_type(struct motion *m)
+{
+    if (m->pending_planner_type < 0 || !tpIsDone(&m->tp) || tpQueueDepth(&m->tp) != 0)
+        return;
+    m->status->planner_type = m->pending_planner_type;
+    m->pending_planner_type = -1;
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * usrmotintf.c - user-space side of the motion controller's shared memory.
+ *
+ * In, out: usrmotintf.h   Thread: task
+ * Method:  status and configuration are copied between equal head and tail
+ *          counters (a sequence lock read at most READS times).
+ */
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+#include "emcmotutil.h"
+#include "kerf_clock.h"
+#include "rtapi.h"
+#include "usrmotintf.h"
+
+#define READS 3
+#define READ_PAUSE_NS 1000
+#define ECHO_POLL_NS 25000
+
+static struct {
+    int module_id, shmem_id;
+    emcmot_struct_t *shared;
+    double timeout_s;
+    int number; /* of the last command sent */
+} usr = {-1, -1, NULL, DEFAULT_EMCMOT_COMM_TIMEOUT, 0};
+
+int usrmotInit(const char *name, int key, double timeout_s)
+{
+    void *memory = NULL;
+    if (usr.shared)
+        return 0;
+    usr.module_id = rtapi_init(name);
+    if (usr.module_id < 0) {
+        fprintf(stderr, "usrmotintf: ERROR: rtapi init failed\n");
+        return -1;
+    }
+    usr.shmem_id = rtapi_shmem_new(key, usr.module_id, sizeof(emcmot_struct_t));
+    if (usr.shmem_id < 0 || rtapi_shmem_getptr(usr.shmem_id, &memory) < 0) {
+        fprintf(stderr, "usrmotintf: ERROR: could not open shared memory\n");
+        if (usr.shmem_id >= 0)
+            rtapi_shmem_delete(usr.shmem_id, usr.module_id);
+        rtapi_exit(usr.module_id);
+        usr.module_id = usr.shmem_id = -1;
+        return -1;
+    }
+    usr.shared = memory;
+    usr.timeout_s = timeout_s;
+    usr.number = usr.shared->status.commandNumEcho;
+    return 0;
+}
+
+int usrmotExit(void)
+{
+    if (usr.shared) {
+        rtapi_shmem_delete(usr.shmem_id, usr.module_id);
+        rtapi_exit(usr.module_id);
+    }
+    usr.shared = NULL;
+    usr.module_id = usr.shmem_id = -1;
+    return 0;
+}
+
+emcmot_struct_t *usrmotSegment(void) { return usr.shared; }
+
+/* One copy of a block: 0, or -1 when it was being written. */
+static int copy_block(void *to, const void *from, size_t size, const unsigned int *head, const unsigned int *tail)
+{
+    unsigned int before = __atomic_load_n(tail, __ATOMIC_ACQUIRE);
+    memcpy(to, from, size);
+    __atomic_thread_fence(__ATOMIC_ACQUIRE);
+    return __atomic_load_n(head, __ATOMIC_RELAXED) == before ? 0 : -1;
+}
+
+static int read_block(void *to, const void *from, size_t size, const unsigned int *head, const unsigned int *tail)
+{
+    for (int i = 0; i < READS; i++) {
+        if (copy_block(to, from, size, head, tail) == 0)
+            return EMCMOT_COMM_OK;
+        kerf_clock_sleep_ns(READ_PAUSE_NS);
+    }
+    return EMCMOT_COMM_SPLIT_READ_TIMEOUT;
+}
+
+int usrmotReadEmcmotStatus(emcmot_status_t *s)
+{
+    if (!usr.shared)
+        return EMCMOT_COMM_ERROR_CONNECT;
+    const emcmot_status_t *from = &usr.shared->status;
+    return read_block(s, from, sizeof(*s), &from->head, &from->tail);
+}
+
+int usrmotReadEmcmotConfig(emcmot_config_t *c)
+{
+    if (!usr.shared)
+        return EMCMOT_COMM_ERROR_CONNECT;
+    const emcmot_config_t *from = &usr.shared->config;
+    int r = read_block(c, from, sizeof(*c), &from->head, &from->tail);
+    if (r == EMCMOT_COMM_SPLIT_READ_TIMEOUT)
+        printf("usrmotReadEmcmotConfig: Split read timeout\n");
+    return r;
+}
+
+int usrmotReadEmcmotInternal(emcmot_internal_t *i)
+{
+    if (!usr.shared)
+        return EMCMOT_COMM_ERROR_CONNECT;
+    const emcmot_internal_t *from = &usr.shared->internal;
+    int r = read_block(i, from, sizeof(*i), &from->head, &from->tail);
+    if (r == EMCMOT_COMM_SPLIT_READ_TIMEOUT)
+        printf("usrmotReadEmcmotInternal: Split read timeout\n");
+    return r;
+}
+
+int usrmotReadEmcmotError(char *e)
+{
+    if (!usr.shared)
+        return EMCMOT_COMM_ERROR_CONNECT;
+    return emcmotErrorGet(&usr.shared->error, e, EMCMOT_ERROR_LEN);
+}
+
+static int echoed(void *arg)
+{
+    const int *number = arg;
+    return __atomic_load_n(&usr.shared->status.commandNumEcho, __ATOMIC_ACQUIRE) == *number;
+}
+
+static int locked(void *arg)
+{
+    (void)arg;
+    return emcmotCommandTryLockUser(usr.shared, getpid());
+}
+
+int usrmotWriteEmcmotCommand(emcmot_command_t *c)
+{
+    int64_t timeout_ns = (int64_t)(usr.timeout_s * 1e9);
+    if (c->id == INT_MIN) {
+        printf("USRMOT: ERROR: invalid motion id: %d\n", c->id);
+        return EMCMOT_COMM_INVALID_MOTION_ID;
+    }
+    if (!usr.shared) {
+        printf("USRMOT: ERROR: can't connect to shared memory\n");
+        return EMCMOT_COMM_ERROR_CONNECT;
+    }
+    if (!locked(NULL) && kerf_clock_wait(locked, NULL, ECHO_POLL_NS, timeout_ns) != 0) {
+        printf("USRMOT: ERROR: command %u timeout (seq: %d)\n", (unsigned)c->command, usr.number);
+        return EMCMOT_COMM_ERROR_TIMEOUT;
+    }
+    c->commandNum = ++usr.number;
+    usr.shared->command = *c;
+    emcmotCommandUnlock(usr.shared);
+    int64_t deadline_ns = kerf_clock_now_ns() + timeout_ns;
+    while (!echoed(&usr.number)) {
+        int64_t left_ns = deadline_ns - kerf_clock_now_ns();
+        if (left_ns <= 0) {
+            printf("USRMOT: ERROR: command %u timeout (seq: %d)\n", (unsigned)c->command, usr.number);
+            return EMCMOT_COMM_ERROR_TIMEOUT;
+        }
+        kerf_clock_wait(echoed, &usr.number, ECHO_POLL_NS, left_ns);
+    }
+    if (__atomic_load_n(&usr.shared->status.commandStatus, __ATOMIC_ACQUIRE) != EMCMOT_COMMAND_OK) {
+        printf("USRMOT: ERROR: invalid command\n");
+        return EMCMOT_COMM_ERROR_COMMAND;
+    }
+    return EMCMOT_COMM_OK;
+}
+
+int usrmotLoadComp(int joint, const char *file, int type)
+{
+    static emcmot_command_t c; /* too large for some stacks */
+    double nominal, forward, reverse;
+    char line[256];
+    FILE *fp = fopen(file, "r");
+    int result = 0;
+    if (!fp) {
+        fprintf(stderr, "can't open compensation file %s\n", file);
+        return -1;
+    }
+    while (fgets(line, sizeof(line), fp) && sscanf(line, "%lf %lf %lf", &nominal, &forward, &reverse) == 3) {
+        memset(&c, 0, sizeof(c));
+        c.command = EMCMOT_SET_JOINT_COMP;
+        c.joint = joint;
+        c.comp_nominal = nominal;
+        c.comp_forward = type ? forward : nominal - forward;
+        c.comp_reverse = type ? reverse : nominal - reverse;
+        result |= usrmotWriteEmcmotCommand(&c);
+    }
+    fclose(fp);
+    return result;
+}
