@@ -127,8 +127,8 @@ $(foreach h,$(PUBLIC_HEADERS),$(eval $(call public_header,$(h))))
 headers: $(PUBLIC) src/config.h
 all: headers $(LIBRARIES) $(PROGRAMS) $(SCRIPTS) $(RTMODULES) $(PYMODULES) $(EXTRA_TARGETS)
 
-Makefile.inc src/config.h: configure.ac Makefile.inc.in
-	autoreconf -fi && ./configure $(CONFIGURE_FLAGS)
+Makefile.inc src/config.h &: configure.ac Makefile.inc.in
+	autoreconf -fi && ./configure $(CONFIGURE_FLAGS) && touch Makefile.inc src/config.h
 
 -include $(DEPS)
 

@@ -55,6 +55,7 @@ struct owner {
 
 struct place {
     _Atomic uint32_t state;             /* enum state: the word its thread sleeps on */
+    _Atomic uint32_t asleep;            /* its thread is, or is about to be, asleep on state */
     int prio;
     uint64_t number;                    /* order among equals; also tells a place from its successor */
     int64_t wake_ns;
@@ -80,7 +81,6 @@ struct vclock {
 
 static struct vclock *clk;
 static int64_t hang_ns = 10000000000;
-static int spins;
 static _Thread_local int mine = -1;
 static _Thread_local uint64_t mine_number;
 /* The first among the others, valid while `changes` is as it was. */
@@ -99,6 +99,9 @@ static int64_t wall(void)
     clock_gettime(CLOCK_MONOTONIC, &t);
     return t.tv_sec * 1000000000LL + t.tv_nsec;
 }
+
+#define SPIN_MAX 128  /* looks, some microseconds: longer than a switch takes */
+#define SPIN_PROBE 64 /* after so many waits without spinning it is tried again */
 
 static void pause_cpu(void)
 {
@@ -171,8 +174,14 @@ static void set_state(struct place *p, uint32_t state)
     changed();
 }
 
+/* state was changed before: either we see that the thread sleeps, or it sees the
+ * new state before it falls asleep (both are sequentially consistent). */
 static void futex_wake(struct place *p)
 {
+    atomic_thread_fence(memory_order_seq_cst);
+    if (!atomic_load(&p->asleep)) {
+        return;
+    }
     syscall(SYS_futex, &p->state, FUTEX_WAKE, INT_MAX, NULL, NULL, 0);
 }
 
@@ -389,17 +398,36 @@ static int64_t look_after_ns(const struct place *p)
     return soon && !running ? LOOK_SOON_NS : LOOK_NS;
 }
 
+/* Looks at the place for a moment before its thread sleeps: with a CPU to spare the
+ * next turn comes sooner than two system calls take. Where that does not pay (the
+ * other runs on this CPU, or long) it stops trying for a while. */
+static bool spin_for_turn(struct place *p)
+{
+    static _Thread_local int budget = SPIN_MAX, skipped;
+    if (budget < 8 && ++skipped < SPIN_PROBE) {
+        return false;
+    }
+    int limit = budget < 8 ? SPIN_MAX : budget;
+    skipped = 0;
+    for (int n = 0; n < limit; n++) {
+        if (atomic_load_explicit(&p->state, memory_order_acquire) == RUNNING) {
+            budget = SPIN_MAX;
+            return true;
+        }
+        pause_cpu();
+    }
+    budget /= 2;
+    return false;
+}
+
 /* Waits until the place is RUNNING. -EINTR: a signal came; the place has then
  * waited for its turn at that moment, unless a second signal came. */
 static int await_turn(struct place *p, const _Atomic bool *cancel)
 {
     int result = 0;
     struct look seen = {0, 0, wall()};
-    for (int n = 0; n < spins; n++) {
-        if (atomic_load_explicit(&p->state, memory_order_acquire) == RUNNING) {
-            return 0;
-        }
-        pause_cpu();
+    if (spin_for_turn(p)) {
+        return 0;
     }
     for (;;) {
         uint32_t state = atomic_load_explicit(&p->state, memory_order_acquire);
@@ -408,12 +436,13 @@ static int await_turn(struct place *p, const _Atomic bool *cancel)
         }
         int64_t ns = look_after_ns(p);
         struct timespec t = {ns / 1000000000, ns % 1000000000};
-        if (syscall(SYS_futex, &p->state, FUTEX_WAIT, state, &t, NULL, 0) == 0) {
-            continue;
-        }
-        if (errno == ETIMEDOUT) {
+        atomic_store(&p->asleep, 1);
+        long woken = syscall(SYS_futex, &p->state, FUTEX_WAIT, state, &t, NULL, 0);
+        int err = woken < 0 ? errno : 0;
+        atomic_store(&p->asleep, 0);
+        if (err == ETIMEDOUT) {
             look_around(&seen, p);
-        } else if (errno == EINTR) {
+        } else if (err == EINTR) {
             lock();
             if (result == -EINTR) { /* asked twice: the one who runs may be stuck */
                 set_state(p, RUNNING);
@@ -536,7 +565,6 @@ int vclock_attach(double pace)
     if (hang && atof(hang) > 0) {
         hang_ns = (int64_t)(atof(hang) * 1e9);
     }
-    spins = sysconf(_SC_NPROCESSORS_ONLN) > 1 ? 200 : 0;
     int handle = kerf_instance_lock("vclock");
     if (handle < 0) {
         return handle;

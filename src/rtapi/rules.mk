@@ -39,3 +39,10 @@ setuid: $(T)/bin/rtapi_app
 
 $(eval $(call pymodule,kerf_clock,src/rtapi/python/kerf_clock.cc,linuxcnchal))
 $(eval $(call program,kerf-clock,src/rtapi/kerf-clock.c,linuxcnchal))
+
+# Test program of tests/rtapi: objects/test/clock-test CASE.
+$(O)/test/clock-test: $(call objs,ul,src/rtapi/test/clock_test.c) $(T)/lib/liblinuxcnchal.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CC) $(SAN) $(LDFLAGS) -o $@ $< -L$(T)/lib -llinuxcnchal -lpthread -Wl,-rpath,'$$ORIGIN/../../lib'
+DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/rtapi/test/clock_test.c))
+EXTRA_TARGETS += $(O)/test/clock-test

@@ -283,7 +283,10 @@ void Task::watch_estop() {
     if (stat_.io.coolant.mist) io_.mist(false);
     if (stat_.io.coolant.flood) io_.flood(false);
     for (int s = 0; s < stat_.motion.traj.spindles; s++)
-        if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
+        if (stat_.motion.spindle[s].enabled) {
+            motion_.spindle_off(s);
+            canon_->spindle_is(s, 0);
+        }
 }
 
 void Task::watch_errors() {
@@ -321,7 +324,10 @@ void Task::watch_program_error() {
     if (now < error_stop_at_ && !taken_over) return;
     error_stop_due_ = false;
     for (int s = 0; s < stat_.motion.traj.spindles; s++)
-        if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
+        if (stat_.motion.spindle[s].enabled) {
+            motion_.spindle_off(s);
+            canon_->spindle_is(s, 0);
+        }
     if (stat_.io.coolant.mist) io_.mist(false);
     if (stat_.io.coolant.flood) io_.flood(false);
 }
@@ -430,6 +436,13 @@ void Task::abort_mdi() {
 
 void Task::all_spindles_off() {
     for (int s = 0; s < stat_.motion.traj.spindles; s++) motion_.spindle_off(s);
+    if (canon_) canon_->spindle_is(-1, 0); // no S word starts them again
+}
+
+// The interpreter learns where the machine is now, not where it was at the last cycle's end.
+void Task::synch() {
+    update_motion();
+    interp_->synch();
 }
 
 void Task::on_abort(int reason, const char *text) {

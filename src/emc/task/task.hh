@@ -92,7 +92,7 @@ private:
     void all_spindles_off();
     void on_abort(int reason, const char *text = "");
     void clear_program();
-    void synch() { interp_->synch(); }
+    void synch();
 
     // ---- messages to the operator; printed too ----
     int operator_message(NMLmsg &m);
@@ -139,6 +139,8 @@ private:
     bool error_stop_due_ = false; // a program ended by an error: its outputs are still on
     int64_t error_stop_at_ = 0;
     std::string program_;        // opened last
+    struct FileId { long long seconds = 0, nanoseconds = 0, size = -1; unsigned long long inode = 0; } program_id_; // its state then
+    static FileId identity(const std::string &file);
     // MDI
     std::deque<std::string> mdi_queue_;
     bool mdi_continue_ = false;  // a called subroutine has more to do

@@ -473,6 +473,11 @@ void TaskCanon::start_spindle(int spindle, int dir, int wait) {
     emit(m);
 }
 
+void TaskCanon::spindle_is(int spindle, int dir) {
+    for (int s = 0; s < EMCMOT_MAX_SPINDLES; s++)
+        if (spindle < 0 || spindle == s) spindle_[static_cast<size_t>(s)].dir = dir;
+}
+
 void TaskCanon::STOP_SPINDLE_TURNING(int spindle, int wait_for_atspeed) {
     flush();
     if (spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES) {

@@ -169,6 +169,10 @@ public:
     EmcPose GET_EXTERNAL_OFFSETS() override { return machine_to_internal(offsets); }
     bool hal_value(const char *name, double *value) override { return hal_lookup && hal_lookup(name, value); }
 
+    // A spindle was started (-1, 1) or stopped (0) by other means than the program: what an S
+    // word does next follows it. spindle -1: all of them.
+    void spindle_is(int spindle, int dir);
+
     // External axis offsets, copied from motion each cycle (machine units).
     bool offsets_applied = false;
     EmcPose offsets{};

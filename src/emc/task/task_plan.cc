@@ -2,6 +2,7 @@
 //
 // task_plan.cc - what commands do, reading ahead in a program, MDI.
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -155,6 +156,12 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_SPINDLE_INCREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_INCREASE, as<EMC_SPINDLE_INCREASE>(m).spindle);
     case EMC_SPINDLE_DECREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_DECREASE, as<EMC_SPINDLE_DECREASE>(m).spindle);
     case EMC_SPINDLE_CONSTANT_TYPE: return 0;
+    case EMC_SPINDLE_ON_TYPE:
+        canon_->spindle_is(as<EMC_SPINDLE_ON>(m).spindle, as<EMC_SPINDLE_ON>(m).speed > 0 ? 1 : as<EMC_SPINDLE_ON>(m).speed < 0 ? -1 : 0);
+        return issue(m);
+    case EMC_SPINDLE_OFF_TYPE:
+        canon_->spindle_is(as<EMC_SPINDLE_OFF>(m).spindle, 0);
+        return issue(m);
     case EMC_NULL_TYPE: return 0;
     default: return issue(m);
     }
@@ -280,8 +287,16 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
         return -1;
     }
     program_ = name;
+    program_id_ = identity(name);
     copy_text(t.file, name.c_str());
     return 0;
+}
+
+Task::FileId Task::identity(const std::string &file) {
+    FileId id;
+    struct stat st;
+    if (::stat(file.c_str(), &st) == 0) id = {st.st_mtim.tv_sec, st.st_mtim.tv_nsec, st.st_size, st.st_ino};
+    return id;
 }
 
 int Task::plan_close() {
@@ -322,13 +337,18 @@ int Task::plan_run(int line) {
         operator_error("Can't run a program when not homed");
         return -1;
     }
+    if (program_.empty()) {
+        operator_error("No program is open");
+        return -1;
+    }
+    FileId now = identity(program_);
+    if (now.size != program_id_.size || now.seconds != program_id_.seconds || now.nanoseconds != program_id_.nanoseconds || now.inode != program_id_.inode) {
+        operator_error((program_ + " was changed after it was opened: open it again to run what it says now").c_str());
+        return -1;
+    }
     stepping_ = step_given_ = false;
     error_stop_due_ = false;
     if (!interp_->file_open()) {
-        if (program_.empty()) {
-            operator_error("No program is open");
-            return -1;
-        }
         int r = interp_->open(program_.c_str());
         if (r != INTERP_OK) {
             interp_failed(r, false);
@@ -474,7 +494,7 @@ void Task::finish_program() {
         return;
     }
     t.interpState = EMC_TASK_INTERP_IDLE;
-    t.readLine = 0;
+    t.readLine = t.callLevel = 0;
     start_line_ = 0;
 }
 

@@ -12,3 +12,4 @@ EXTRA_TARGETS += $(O)/test/tp-$(1)
 endef
 $(eval $(call tp_test,basic))
 $(eval $(call tp_test,property))
+$(eval $(call tp_test,api))

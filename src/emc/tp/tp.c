@@ -581,10 +581,11 @@ static double spindle_revs(int spindle)
     return sp->direction < 0 ? -sp->spindleRevs : sp->spindleRevs;
 }
 
-/* Seconds by which the reference is taken ahead: what the planner puts out now acts so much later. */
+/* Seconds by which the reference is taken ahead. What the planner puts out now acts OUTPUT_LAG cycles
+ * later; the place that is compared with the reference is that of the cycle before. */
 static double follow_lead(const struct planner *pl)
 {
-    return OUTPUT_LAG * pl->cycle + traj_lag(&pl->tj);
+    return (OUTPUT_LAG - 1) * pl->cycle + traj_lag(&pl->tj);
 }
 
 /* Goes on with the start of a move that follows a spindle's position: index, then phase. 1: may start. */

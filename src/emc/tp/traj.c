@@ -339,6 +339,13 @@ static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int ar
         mc += jc.d1[i] * jc.d1[i];
     }
     c->metric = bound3(sqrt(ma), sqrt(mm), sqrt(mc));
+    if (rounded && c->metric * g->stretch > 2) {
+        /* The feed of a move that hardly moves in its metric must not hold up a neighbour's. */
+        uint32_t other = c->s0 + c->len / 2 > (g->s0 + g->s1) / 2 ? c->seg + 1 : c->seg - 1;
+        if ((int32_t)(other - tj->first) >= 0 && (int32_t)(tj->end - other) > 0 &&
+            traj_cseg(tj, other)->prim.metric == g->prim.metric)
+            c->seg2 = other;
+    }
     cap = fmin(cap, 1e12);
     c->cap = cap;
 
@@ -411,7 +418,7 @@ static int cut_cell(struct traj *tj)
     struct traj_cell *c = cell_at(tj, tj->cell_end);
     c->s0 = a;
     c->len = end - a;
-    c->seg = tj->cut_seg;
+    c->seg = c->seg2 = tj->cut_seg;
     c->rest = g->join == JOIN_REST && a <= g->s0 + tiny;
     c->k = 0;
     c->kr = 0;
@@ -427,15 +434,23 @@ static int cut_cell(struct traj *tj)
 
 /* ---- envelope ---------------------------------------------------------------- */
 
-/* Cap of b by feed, override, limit of speed. */
-static double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit)
+/* Speed that a move allows in its metric: feed, override, limit of speed. */
+static double feed_of(const struct traj *tj, uint32_t index, double scale, double vlimit)
 {
-    const struct traj_seg *g = traj_cseg(tj, c->seg);
+    const struct traj_seg *g = traj_cseg(tj, index);
     double v = g->vmax;
 
     if (g->follow == TRAJ_FEED) v = fmin(v, g->feed * fmin(scale, fmax(tj->drive.max_scale, 1)));
     if (g->follow != TRAJ_SYNC_POSITION && g->prim.metric != PATH_ABC) v = fmin(v, vlimit);
+    return v;
+}
+
+/* Cap of b by the same. */
+static double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit)
+{
     if (c->metric < 1e-12) return 1e30;
+    double v = feed_of(tj, c->seg, scale, vlimit);
+    if (c->seg2 != c->seg) v = fmax(v, feed_of(tj, c->seg2, scale, vlimit));
     v /= c->metric;
     return v * v;
 }

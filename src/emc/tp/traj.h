@@ -94,6 +94,7 @@ struct traj_cell {
     double c1[2], c2[2]; /* |u| <= c1 - c2 b, both lines */
     double metric;       /* largest |dp/ds| in the feed's metric */
     uint32_t seg;        /* move at s0: feed */
+    uint32_t seg2;       /* the other move of a rounding between very different ones, else seg */
     int rest;            /* motion rests at s0 */
     double k;            /* b allowed at s0 when running forward */
     double kr;           /* b allowed at s0 when running backward */

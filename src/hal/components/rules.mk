@@ -20,9 +20,28 @@ $(COMP_GEN)/.stamp: $(COMP_FILES) $(HALCOMPILE_SOURCES)
 	$(Q)mkdir -p $(@D) && $(HALCOMPILE) --preprocess --output-dir=$(@D) $(filter %.comp,$(if $(filter %.py,$?),$^,$?)) && touch $@
 $(COMP_GENERATED): $(COMP_GEN)/.stamp ;
 
-$(foreach n,$(COMP_NAMES),$(eval $(call rtmodule,$(n),$(COMP_GEN)/$(n).c)))
+# Components with `option userspace` are programs.
+COMP_USER := thermistor
+$(foreach n,$(filter-out $(COMP_USER),$(COMP_NAMES)),$(eval $(call rtmodule,$(n),$(COMP_GEN)/$(n).c)))
+$(foreach n,$(COMP_USER),$(eval $(call program,$(n),$(COMP_GEN)/$(n).c,linuxcnchal -lm)))
 
 # Modules in C.
 COMP_C_PARTS :=
 COMP_C := $(filter-out $(COMP_C_PARTS),$(notdir $(wildcard $(COMP_DIR)/*.c)))
 $(foreach c,$(COMP_C),$(eval $(call rtmodule,$(basename $(c)),$(COMP_DIR)/$(c))))
+
+# Manual pages, and docs/components.md (kept in the tree: tests/docs checks it).
+COMP_PAGES := $(sort $(COMP_FILES) $(wildcard $(COMP_DIR)/man/*.adoc))
+COMP_MANUALS := PYTHONPATH=src/hal/utils $(PYTHON) -B $(COMP_DIR)/manuals.py
+EXTRA_TARGETS += $(T)/docs/build/man/.components
+$(T)/docs/build/man/.components: $(COMP_PAGES) $(COMP_DIR)/manuals.py $(HALCOMPILE_SOURCES)
+	$(call say,MAN,$(words $(COMP_PAGES)) pages)
+	$(Q)mkdir -p $(@D) && $(COMP_MANUALS) man $(@D) $(COMP_PAGES) && touch $@
+.PHONY: component-list
+component-list: $(COMP_PAGES)
+	$(call say,LIST,docs/components.md)
+	$(Q)$(COMP_MANUALS) list $(COMP_PAGES) > docs/components.md
+INSTALL_HOOKS += install-component-manuals
+.PHONY: install-component-manuals
+install-component-manuals: $(T)/docs/build/man/.components
+	for s in 1 9; do install -d $(D)$(mandir)/man$$s && install -m 644 $(T)/docs/build/man/man$$s/*.$$s $(D)$(mandir)/man$$s; done

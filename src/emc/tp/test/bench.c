@@ -344,6 +344,20 @@ static double dist_to(const struct prog *m, const double p[AXES])
     return best;
 }
 
+/* The distance is at least this. */
+static double at_least(const struct prog *m, const double p[AXES])
+{
+    double d[3], reach;
+    for (int i = 0; i < 3; i++) d[i] = p[i] - (m->arc ? m->c0[i] : (m->start[i] + m->end[i]) / 2);
+    if (m->arc) {
+        reach = fmax(m->radius, m->radius + m->spiral) + fabs(m->rise);
+    } else {
+        double e[3] = { m->end[0] - m->start[0], m->end[1] - m->start[1], m->end[2] - m->start[2] };
+        reach = norm3(e) / 2;
+    }
+    return norm3(d) - reach;
+}
+
 /* A junction's tolerance is the smaller of its moves' (0 in blend mode: none given). A point near move
  * k may belong to a rounding at either end of it, or of a neighbour that is as near. */
 static double tolerance_near(const struct bench *b, int near)
@@ -376,6 +390,7 @@ double bench_distance(struct bench *b, const double p[AXES], double *tol)
         for (int side = -1; side <= 1; side += 2) {
             int k = id + side * ring;
             if (k < from || k > to || !b->prog[k].sent || (ring == 0 && side > 0)) continue;
+            if (at_least(&b->prog[k], p) >= best) continue;
             double d = dist_to(&b->prog[k], p);
             if (d < best) best = d, b->near = k;
         }

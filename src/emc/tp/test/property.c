@@ -159,7 +159,7 @@ static int run_seed(uint64_t seed, int jerk, int verbose, struct totals *sum)
 
     random_machine(&b, &r, jerk);
     random_program(&b, &r);
-    b.check_every = 3;
+    b.check_every = 5;
     calm = rnd_int(&r, 4) == 0;
     int starve = rnd_int(&r, 3) == 0, continuous = rnd_int(&r, 4) == 0, paused = 0, aborted = 0, stepping = 0;
     int abort_allowed = rnd_int(&r, 3) == 0;

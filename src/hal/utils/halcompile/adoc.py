@@ -53,6 +53,14 @@ def _item_name(component: Component, name: str) -> str:
     return f"{_instance(component)}.{shown}"
 
 
+def _without_parentheses(text: str) -> str:
+    """An expression without one pair of parentheses around all of it."""
+    inside = text[1:-1].strip()
+    if not (text.startswith("(") and text.endswith(")")) or "(" in inside or ")" in inside:
+        return text
+    return inside
+
+
 def item_line(component: Component, item: Item) -> str:
     line = f"{_item_name(component, item.name)} {SHOWN_TYPE.get(item.type, item.type)} {item.direction}"
     if item.array:
@@ -60,7 +68,7 @@ def item_line(component: Component, item: Item) -> str:
         last = f"{item.array.size - 1:0{len(marks)}d}"
         first = f"{0:0{len(marks)}d}"
         if item.array.used:
-            line += f"  ({marks}={first}..({item.array.used.text()}) - 1, at most {last})"
+            line += f"  ({marks}={first}..{_without_parentheses(item.array.used.text())} - 1, at most {last})"
         else:
             line += f"  ({marks}={first}..{last})"
     if item.condition:

@@ -7,8 +7,8 @@ rules about names, counts, options and code are here.
 
 from __future__ import annotations
 
-import os
 import re
+import sys
 from dataclasses import dataclass, field
 
 from .errors import CompError, line_and_column, warn
@@ -178,7 +178,6 @@ def check(tree: File, expected_name: str | None = None,
         if component.functions:
             raise CompError("Userspace components may not have functions", component.functions[0].offset)
     elif component.option("userinit"):
-        print_file = os.path.basename(tree.name)
-        warn(tree.name, 0, f"comp '{print_file}' sets 'userinit' without 'userspace', ignoring")
+        print(f"Warning: comp '{tree.name}' sets 'userinit' without 'userspace', ignoring", file=sys.stderr)
     _check_code(component)
     return component

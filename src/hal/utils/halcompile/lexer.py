@@ -26,7 +26,7 @@ KINDS = {
     "NUMBER": re.compile(r"0[xX][0-9a-fA-F]+|0[bB][01]+|0[oO][0-7]+|[-+]?[0-9]+"),
     "STRING": re.compile(r'r?"""(?:\\.|[^\\])*?"""|"(?:\\.|[^\\"])*"', re.S),
     "HEADER": re.compile(r'"[^"\n]*"|<[^>\n]*>'),
-    "OPERATOR": re.compile(r"&&|\|\||==|!=|<<|>>|[-()+*/:?&<>]"),
+    "OPERATOR": re.compile(r"&&|\|\||==|!=|<<|>>|<=|>=|[-()+*/:?&<>]"),
     "CONDNUMBER": re.compile(r"0[xX][0-9a-fA-F]+|0[bB][01]+|0[oO][0-7]+|[0-9]+"),
     "END": re.compile(r"\Z"),
 }
