@@ -25,17 +25,19 @@ static void usage(FILE *to) {
             "  -s, --sessions N      connections at a time, 0: any number (0)\n"
             "  -d, --path LIST       where OPEN and LOAD_TOOL_TABLE look, separated by ':'\n"
             "  -q, --quiet           no information on standard output\n"
-            "  -4, --ipv4            no IPv6\n");
+            "  -4, --ipv4            no IPv6\n"
+            "  -b, --bind ADDRESS    where to listen: an address of this computer, or '*' for all of them\n"
+            "                        (default: only programs of this computer are let in)\n");
 }
 
 int main(int argc, char **argv) {
     rsh::Options o;
     if (const char *home = getenv("HOME")) o.path = std::string(home) + "/nc_files";
     static const option longs[] = {{"help", 0, nullptr, 'h'}, {"port", 1, nullptr, 'p'}, {"name", 1, nullptr, 'n'}, {"connectpw", 1, nullptr, 'w'},
-        {"enablepw", 1, nullptr, 'e'}, {"sessions", 1, nullptr, 's'}, {"path", 1, nullptr, 'd'}, {"quiet", 0, nullptr, 'q'}, {"ipv4", 0, nullptr, '4'},
+        {"enablepw", 1, nullptr, 'e'}, {"sessions", 1, nullptr, 's'}, {"path", 1, nullptr, 'd'}, {"quiet", 0, nullptr, 'q'}, {"ipv4", 0, nullptr, '4'}, {"bind", 1, nullptr, 'b'},
         {nullptr, 0, nullptr, 0}};
     int c;
-    while ((c = getopt_long(argc, argv, "+hp:n:w:e:s:d:q4", longs, nullptr)) != -1) {
+    while ((c = getopt_long(argc, argv, "+hp:n:w:e:s:d:q4b:", longs, nullptr)) != -1) {
         switch (c) {
         case 'h': usage(stdout); return 0;
         case 'p':
@@ -63,6 +65,7 @@ int main(int argc, char **argv) {
         case 'd': o.path = optarg; break;
         case 'q': o.quiet = true; break;
         case '4': o.ipv4 = true; break;
+        case 'b': o.bind = optarg; break;
         default: usage(stderr); return 1;
         }
     }

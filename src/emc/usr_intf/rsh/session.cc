@@ -3,7 +3,7 @@
 // session.cc - linuxcncrsh: lines in, commands and replies out. Source: rsh sheet, B.2 to B.4.
 #include "session.hh"
 
-#include <netdb.h>
+#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -291,6 +291,37 @@ void Server::read_messages() {
     }
 }
 
+bool Server::open_port(int family, const char *address) {
+    int fd = socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0), one = 1, zero = 0;
+    if (fd < 0) return false;
+    setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
+    sockaddr_in6 six{};
+    sockaddr_in four{};
+    sockaddr *at = reinterpret_cast<sockaddr *>(&four);
+    socklen_t size = sizeof four;
+    int known;
+    if (family == AF_INET6) {
+        setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &zero, sizeof zero);
+        six.sin6_family = AF_INET6;
+        six.sin6_port = htons(static_cast<uint16_t>(options.port));
+        known = inet_pton(AF_INET6, address, &six.sin6_addr);
+        at = reinterpret_cast<sockaddr *>(&six);
+        size = sizeof six;
+    } else {
+        four.sin_family = AF_INET;
+        four.sin_port = htons(static_cast<uint16_t>(options.port));
+        known = inet_pton(AF_INET, address, &four.sin_addr);
+    }
+    if (known != 1 || bind(fd, at, size) != 0 || listen(fd, 16) != 0) {
+        if (family == AF_INET || !options.bind.empty())
+            fprintf(stderr, "linuxcncrsh: %s port %d: %s\n", address, options.port, known == 1 ? strerror(errno) : "not an address");
+        close(fd);
+        return false;
+    }
+    listeners_.push_back(fd);
+    return true;
+}
+
 bool Server::start() {
     if (!ini.open(options.ini_file)) return false;
     ini_version = ini.findStringV("VERSION", "EMC", "1.1");
@@ -307,41 +338,24 @@ bool Server::start() {
         }
         kerf_clock_sleep_ns(1000 * MS);
     }
-    int one = 1, zero = 0;
-    if (!options.ipv4) {
-        listener_ = socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-        if (listener_ >= 0) {
-            sockaddr_in6 at{};
-            at.sin6_family = AF_INET6;
-            at.sin6_port = htons(static_cast<uint16_t>(options.port));
-            at.sin6_addr = in6addr_any;
-            setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
-            setsockopt(listener_, IPPROTO_IPV6, IPV6_V6ONLY, &zero, sizeof zero);
-            if (bind(listener_, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0) {
-                close(listener_);
-                listener_ = -1;
-            }
-        }
+    // Passwords of this protocol travel in clear: other computers must be let in on purpose.
+    bool any = options.bind == "*";
+    if (options.bind.empty() || any) {
+        bool six = !options.ipv4 && open_port(AF_INET6, any ? "::" : "::1");
+        if (!(six && any)) open_port(AF_INET, any ? "0.0.0.0" : "127.0.0.1");
+    } else {
+        open_port(options.bind.find(':') == std::string::npos ? AF_INET : AF_INET6, options.bind.c_str());
     }
-    if (listener_ < 0) {
-        listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-        sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_port = htons(static_cast<uint16_t>(options.port));
-        setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
-        if (bind(listener_, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0) {
-            fprintf(stderr, "linuxcncrsh: port %d: %s\n", options.port, strerror(errno));
-            return false;
-        }
-    }
-    if (listen(listener_, 16) != 0) return false;
+    if (listeners_.empty()) return false;
     info("listening on port " + std::to_string(options.port));
     return true;
 }
 
 void Server::run(const volatile int *stop) {
     while (!*stop) {
-        std::vector<pollfd> fds{{listener_, POLLIN, 0}};
+        std::vector<pollfd> fds;
+        for (int l : listeners_) fds.push_back({l, POLLIN, 0});
+        size_t first = fds.size();
         std::vector<int> ids;
         int64_t timeout = 200 * MS, now = kerf_clock_now_ns();
         for (auto &s : sessions) {
@@ -356,7 +370,7 @@ void Server::run(const volatile int *stop) {
         kerf_clock_poll(fds.data(), fds.size(), timeout);
         for (size_t i = 0; i < ids.size(); i++) {
             Session &s = *sessions[ids[i]];
-            short ev = fds[i + 1].revents;
+            short ev = fds[first + i].revents;
             char buf[4096];
             if (ev & POLLPRI) (void)!recv(s.fd, buf, sizeof buf, MSG_OOB);
             if (ev & (POLLIN | POLLHUP | POLLERR)) {
@@ -366,8 +380,9 @@ void Server::run(const volatile int *stop) {
                 else if (errno != EAGAIN && errno != EINTR) s.closing = true, s.output.clear();
             }
         }
-        if (fds[0].revents & POLLIN) {
-            int fd = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+        for (size_t l = 0; l < first; l++) {
+            if (!(fds[l].revents & POLLIN)) continue;
+            int fd = accept4(listeners_[l], nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (fd >= 0 && options.sessions > 0 && static_cast<int>(sessions.size()) >= options.sessions) {
                 close(fd);
             } else if (fd >= 0) {
@@ -395,7 +410,7 @@ void Server::run(const volatile int *stop) {
         if (shutdown && sessions.empty()) break;
     }
     sessions.clear();
-    close(listener_);
+    for (int l : listeners_) close(l);
 }
 
 } // namespace rsh

@@ -23,6 +23,7 @@ using Words = std::vector<std::string>;
 struct Options {
     int port = 5007;
     std::string name = "EMCNETSVR", connect_password = "EMC", enable_password = "EMCTOO", path;
+    std::string bind; // address to listen on; empty: this computer only, "*": any
     int sessions = 0;
     bool quiet = false, ipv4 = false;
     std::string ini_file = "emc.ini";
@@ -102,7 +103,8 @@ public:
     void info(const std::string &text) const;
 
 private:
-    int listener_ = -1;
+    bool open_port(int family, const char *address);
+    std::vector<int> listeners_;
     double servo_period_s_ = 0.01;
 };
 
