@@ -21,6 +21,7 @@ static void joint_init(emcmot_joint_t *j)
     j->big_vel = 10.0;
     j->free_tp.max_vel = j->vel_limit;
     j->free_tp.max_acc = j->acc_limit;
+    j->flag = EMCMOT_JOINT_INPOS_BIT; /* at rest until it is told to move */
     comp_init(j);
 }
 
