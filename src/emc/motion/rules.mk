@@ -11,3 +11,4 @@ $(eval $(call rtmodule,limitcheck,src/emc/motion/limitcheck.c))
 # The user-space side of the shared segment, for programs that talk to motmod.
 USRMOT_SOURCES := src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c
 $(eval $(call pymodule,kerf_motion,src/emc/motion/usr/kerf_motion.cc $(USRMOT_SOURCES) src/emc/posemath/emcpose.c,linuxcnchal))
+$(eval $(call program,motion-logger,src/emc/motion/usr/motion_logger.c $(USRMOT_SOURCES),linuxcnchal))
