@@ -11,6 +11,7 @@
 static void joint_init(emcmot_joint_t *j)
 {
     memset(j, 0, sizeof(*j));
+    j->flag = EMCMOT_JOINT_INPOS_BIT; /* a machine that starts is at rest */
     j->max_pos_limit = 1.0;
     j->min_pos_limit = -1.0;
     j->vel_limit = 1.0;
