@@ -7,12 +7,17 @@
 #include <math.h>
 #include <string.h>
 
+#define JOIN_BUDGET 16     /* junctions made final in a cycle */
 #define CUT_BUDGET 32      /* cells made in a cycle */
 #define SWEEP_BUDGET 512   /* cells looked at by the envelope in a cycle */
 #define CELLS_CYCLE 24     /* the speed is capped so that so many cells in a row last a cycle */
 #define PORTIONS (8 * CELLS_CYCLE) /* pieces of constant acceleration in a cycle, never reached */
 #define STOP_SCAN 256      /* cells looked ahead for a stop at a given place */
-#define SCAN_LIMIT 64      /* junctions whose rounding may cover one point, each side */
+#define SPREAD 24          /* junctions that a rounding may reach over, each side */
+#define TURN_LIMIT 1.0     /* rad: sum of the bends that one rounding smooths */
+#define TOL_SHARE 0.8      /* of the tolerance, taken when roundings overlap */
+#define GROW 1.5           /* step of the search for a width */
+#define HUNGRY 20          /* cycles without a new move: no more may come */
 
 #define CELL_MOVES 64      /* moves that one cell may span; less than TRAJ_HISTORY */
 
@@ -47,7 +52,8 @@ void traj_reset(struct traj *tj, const double p[PATH_AXES])
     tj->cell_first = tj->cell_end = tj->cell = 0;
     tj->s_final = tj->cut_s = 0;
     tj->tail_forced = 0;
-    tj->cut_seg = tj->cut_join = 0;
+    tj->cut_seg = tj->fin = 0;
+    tj->hungry = 0;
     tj->sweep = 0;
     tj->sweeping = tj->sweep_anew = 0;
     tj->swept_end = 0;
@@ -133,7 +139,7 @@ static void make_join(struct traj *tj, uint32_t index, int rest_before)
     struct traj_seg *g = traj_seg(tj, index);
     const struct traj_seg *prev = traj_cseg(tj, index - 1);
     struct path_jet before, after;
-    double speed, biggest = 0, w, needed = 0, p, room;
+    double speed, biggest = 0, room;
 
     path_jet_at(&prev->prim, prev->prim.len, &before);
     path_jet_at(&g->prim, 0, &after);
@@ -160,28 +166,207 @@ static void make_join(struct traj *tj, uint32_t index, int rest_before)
         join_kink(tj, prev, g, room);
         return;
     }
-    /* Half width: by tolerance, by the neighbours' halves, and no wider than the speed asks for. */
-    w = fmin(fmin(prev->prim.len, g->prim.len) / 2, room);
-    p = prev->tol > 0 && g->tol > 0 ? fmin(prev->tol, g->tol) : fmax(prev->tol, g->tol);
-    if (p > 0) w = fmin(w, tolerance_left(tj, p, g) / (PATH_ROUND_PEAK * path_max_norm(g->du)));
-    for (int i = 0; i < PATH_AXES; i++) {
-        double a = fmin(axis_acc(tj, i, g), axis_acc(tj, i, prev));
-        needed = fmax(needed, 2 * PATH_ROUND_CURVE * fabs(g->du[i]) * speed * speed / a);
-    }
-    w = fmin(w, needed);
-    if (w < 1e-7) {
-        join_kink(tj, prev, g, room);
-        return;
-    }
     g->join = JOIN_ROUND;
-    g->w = w;
+    g->bend = path_max_norm(g->du);
+    g->tol_join = prev->tol > 0 && g->tol > 0 ? fmin(prev->tol, g->tol) : fmax(prev->tol, g->tol);
+    if (!(g->tol_join > 0)) g->tol_join = fmin(prev->prim.len, g->prim.len) / 4; /* none given */
+    else g->tol_join = tolerance_left(tj, g->tol_join, g);
 }
 
+/* How far a rounding at junction c may reach: no barrier, no exact move, at most half an arc.
+ * *open: to that side the path is not known far enough yet. */
+static double reach_right(const struct traj *tj, uint32_t c, int *open)
+{
+    *open = 0;
+    for (uint32_t t = c;; t++) {
+        const struct traj_seg *g = traj_cseg(tj, t);
+        if (g->prim.kind != PATH_LINE) return t == c ? g->prim.len / 2 : g->s0 - traj_cseg(tj, c)->s0;
+        if (t + 1 == tj->end) {
+            *open = g->end == TRAJ_BLEND && !tj->tail_forced;
+            return g->s1 - traj_cseg(tj, c)->s0;
+        }
+        const struct traj_seg *next = traj_cseg(tj, t + 1);
+        if (next->join == JOIN_REST || next->join == JOIN_KINK || next->end != TRAJ_BLEND || t - c >= SPREAD)
+            return g->s1 - next->zone - traj_cseg(tj, c)->s0;
+    }
+}
+
+static double reach_left(const struct traj *tj, uint32_t c)
+{
+    const struct traj_seg *at = traj_cseg(tj, c);
+    double room = at->s0 - tj->cut_s;
+
+    for (uint32_t t = c - 1;; t--) {
+        const struct traj_seg *g = traj_cseg(tj, t);
+        if (g->end != TRAJ_BLEND) return fmin(room, at->s0 - g->s1);
+        if (g->prim.kind != PATH_LINE) return fmin(room, at->s0 - g->s1 + (t == c - 1 ? g->prim.len / 2 : 0));
+        if (g->join == JOIN_REST || g->join == JOIN_KINK || t == tj->first || c - t >= SPREAD)
+            return fmin(room, at->s0 - g->s0 - g->zone);
+        if (at->s0 - g->s0 >= room) return room;
+    }
+}
+
+/* If all junctions around c were rounded over +-w: curvature at c, sum of deviations there, sum of
+ * bends. 1: the curvature leaves half of each axis's acceleration at the speed v. */
+static int try_width(const struct traj *tj, uint32_t c, double w, double v, double *off, double *turn)
+{
+    const struct traj_seg *at = traj_cseg(tj, c);
+    double k[4], curve[PATH_AXES];
+
+    for (int i = 0; i < PATH_AXES; i++) curve[i] = at->du[i] * PATH_ROUND_CURVE;
+    *off = at->bend * w * PATH_ROUND_PEAK;
+    *turn = at->bend;
+    for (int side = -1; side <= 1; side += 2) {
+        for (uint32_t d = c + side; d != tj->end && (int32_t)(d - tj->first) > 0; d += side) {
+            const struct traj_seg *q = traj_cseg(tj, d);
+            double x = (q->s0 - at->s0) / w;
+            if (fabs(x) >= 1) break;
+            if (q->join != JOIN_ROUND) continue;
+            path_round(x, 1, k);
+            for (int i = 0; i < PATH_AXES; i++) curve[i] += q->du[i] * k[2];
+            *off += q->bend * w * k[0];
+            *turn += q->bend;
+        }
+    }
+    for (int i = 0; i < PATH_AXES; i++)
+        if (fabs(curve[i]) / w * v * v > axis_acc(tj, i, at) / 2) return 0;
+    return 1;
+}
+
+/* Largest share of w that keeps the sum of deviations within the tolerance at every junction reached. */
+static double fit_width(const struct traj *tj, uint32_t c, double w)
+{
+    const struct traj_seg *at = traj_cseg(tj, c);
+    double k[4];
+
+    w = fmin(w, (at->tol_join - at->off) / (PATH_ROUND_PEAK * at->bend));
+    for (int n = 0; n < 24 && w > 0; n++) {
+        int fits = 1;
+        for (int side = -1; side <= 1 && fits; side += 2) {
+            for (uint32_t d = c + side; d != tj->end && (int32_t)(d - tj->first) > 0; d += side) {
+                const struct traj_seg *q = traj_cseg(tj, d);
+                double x = (q->s0 - at->s0) / w;
+                if (fabs(x) >= 1) break;
+                if (q->join != JOIN_ROUND) continue;
+                path_round(x, 1, k);
+                if (q->off + at->bend * w * k[0] > q->tol_join) {
+                    fits = 0;
+                    break;
+                }
+            }
+        }
+        if (fits) break;
+        w *= 0.8;
+    }
+    return w > 0 ? w : 0;
+}
+
+/* Enters the rounding of junction c into the moves that it reaches. */
+static void spread_rounding(struct traj *tj, uint32_t c)
+{
+    struct traj_seg *at = traj_seg(tj, c);
+    double reach = at->w > at->zone ? at->w : at->zone, k[4];
+
+    for (uint32_t t = c; t != tj->end && (t == c || traj_seg(tj, t)->s0 - at->s0 < reach); t++) {
+        struct traj_seg *g = traj_seg(tj, t);
+        if ((int32_t)(g->hi - g->lo) < 0) g->lo = c;
+        g->hi = c;
+        if (at->w > 0) {
+            path_round(fmin(1, (g->s0 - at->s0) / at->w), 1, k);
+            g->off += at->bend * at->w * k[0];
+        }
+    }
+    for (uint32_t t = c - 1;; t--) {
+        struct traj_seg *g = traj_seg(tj, t);
+        if (at->s0 - g->s1 >= reach) break;
+        if ((int32_t)(g->hi - g->lo) < 0) g->lo = c;
+        g->hi = c;
+        if (at->w > 0) {
+            path_round(fmax(-1, (g->s0 - at->s0) / at->w), 1, k);
+            g->off += at->bend * at->w * k[0];
+        }
+        if (t == tj->first) break;
+    }
+}
+
+/* Decides the width of the rounding at junction c. 0: more of the path must be known first. */
+static int finish_join(struct traj *tj, uint32_t c)
+{
+    struct traj_seg *g = traj_seg(tj, c);
+    const struct traj_seg *prev = traj_cseg(tj, c - 1);
+    double v, half, needed = 0, left, right, w, off, turn;
+    int open;
+
+    if (g->join == JOIN_KINK) spread_rounding(tj, c);
+    if (g->join != JOIN_ROUND) return 1;
+    v = fmax(planned_speed(tj, prev), planned_speed(tj, g));
+    left = reach_left(tj, c);
+    right = reach_right(tj, c, &open);
+    /* Alone: by tolerance, by half the neighbours, and no wider than the speed asks for. */
+    half = fmin(fmin(prev->prim.len, g->prim.len) / 2, fmin(left, right));
+    for (int i = 0; i < PATH_AXES; i++) {
+        double a = fmin(axis_acc(tj, i, g), axis_acc(tj, i, prev));
+        needed = fmax(needed, 2 * PATH_ROUND_CURVE * fabs(g->du[i]) * v * v / a);
+    }
+    w = fmin(fmin(half, needed), g->tol_join / (PATH_ROUND_PEAK * g->bend));
+    g->solo = 1;
+    if (w >= half) {
+        /* Short moves: smooth over several, as far as tolerance allows and speed asks for. */
+        double limit = fmin(left, right);
+        int enough = try_width(tj, c, w, v, &off, &turn);
+        while (!enough && w < limit && off < TOL_SHARE * g->tol_join) {
+            double wider = fmin(w * GROW, limit);
+            enough = try_width(tj, c, wider, v, &off, &turn);
+            if (turn > TURN_LIMIT) break;
+            if (off > TOL_SHARE * g->tol_join) {
+                wider = fmax(w, wider * sqrt(TOL_SHARE * g->tol_join / off));
+                enough = 1;
+            }
+            w = wider;
+        }
+        if (!enough && open && w >= limit && right <= left && turn <= TURN_LIMIT) return 0;
+    }
+    w = fit_width(tj, c, w);
+    if (w < 1e-7) {
+        join_kink(tj, prev, g, g->s0 - tj->cut_s);
+        if (g->join == JOIN_KINK) spread_rounding(tj, c);
+        return 1;
+    }
+    g->w = w;
+    g->solo = w <= half * (1 + 1e-9) && g->off == 0;
+    spread_rounding(tj, c);
+    return 1;
+}
+
+/* Length of path before an unfinished junction that its rounding may take. */
+static double join_reserve(const struct traj *tj, uint32_t c)
+{
+    const struct traj_seg *g = traj_cseg(tj, c), *prev = traj_cseg(tj, c - 1);
+    double most = g->tol_join / (PATH_ROUND_PEAK * g->bend), last = prev->join == JOIN_ROUND ? prev->w : 0;
+
+    return fmin(most, fmax(GROW * last, 4 * fmin(prev->prim.len, g->prim.len)));
+}
+
+static void finish_joins(struct traj *tj)
+{
+    for (int n = 0; n < JOIN_BUDGET && tj->fin != tj->end; n++) {
+        if (tj->fin != tj->first && !finish_join(tj, tj->fin)) break;
+        tj->fin++;
+    }
+}
+
+/* Moves on the end of the final path. */
 static void update_final(struct traj *tj)
 {
     const struct traj_seg *last = traj_cseg(tj, tj->end - 1);
-    double s = last->s1 - tail_reserve(tj, last);
-    if (tj->tail_forced || s > last->s1) s = last->s1;
+    double s;
+
+    if (tj->fin != tj->end) {
+        const struct traj_seg *g = traj_cseg(tj, tj->fin);
+        s = tj->fin == tj->first ? g->s0 : g->s0 - fmax(join_reserve(tj, tj->fin), g->zone);
+    } else {
+        s = tj->tail_forced ? last->s1 : last->s1 - tail_reserve(tj, last);
+    }
     if (s > tj->s_final) tj->s_final = s;
 }
 
@@ -204,7 +389,11 @@ int64_t traj_append(struct traj *tj, const struct traj_move *move)
     g->end = move->end;
     g->follow = move->follow;
     g->released = 0;
-    g->w = g->zone = g->kink_b = 0;
+    g->w = g->zone = g->kink_b = g->bend = g->off = 0;
+    g->solo = 1;
+    g->tol_join = 0;
+    g->lo = index + 1;
+    g->hi = index;
     if (index == tj->first) {
         memset(g->du, 0, sizeof g->du);
         memset(g->dk, 0, sizeof g->dk);
@@ -214,13 +403,13 @@ int64_t traj_append(struct traj *tj, const struct traj_move *move)
     }
     tj->end++;
     tj->tail_forced = 0;
-    update_final(tj);
+    tj->hungry = 0;
     return index;
 }
 
 /* ---- rounded path ----------------------------------------------------------- */
 
-/* Largest distance from the junction at which its correction or zone acts. */
+/* Largest distance from the junction at which its rounding or zone acts. */
 static double reach(const struct traj_seg *g)
 {
     return g->w > g->zone ? g->w : g->zone;
@@ -251,20 +440,11 @@ static void add_round(const struct traj_seg *g, double s, int side, struct path_
 static void rounded_jet(const struct traj *tj, uint32_t index, double s, struct path_jet *jet)
 {
     const struct traj_seg *g = traj_cseg(tj, index);
-    uint32_t j;
-    int n;
 
     path_jet_at(&g->prim, s - g->s0, jet);
-    for (j = index, n = 0; n < SCAN_LIMIT; j--, n++) {
+    for (uint32_t j = g->lo; (int32_t)(g->hi - j) >= 0; j++) {
         const struct traj_seg *q = traj_cseg(tj, j);
-        if (!(s - q->s0 < reach(q))) break;
-        if (q->w > 0) add_round(q, s, 1, jet);
-        if (j == tj->first) break;
-    }
-    for (j = index + 1, n = 0; j != tj->end && n < SCAN_LIMIT; j++, n++) {
-        const struct traj_seg *q = traj_cseg(tj, j);
-        if (!(q->s0 - s < reach(q))) break;
-        if (q->w > 0) add_round(q, s, -1, jet);
+        if (fabs(s - q->s0) < q->w) add_round(q, s, (int32_t)(index - j) >= 0 ? 1 : -1, jet);
     }
 }
 
@@ -272,33 +452,20 @@ void traj_pose(const struct traj *tj, double s, double p[PATH_AXES])
 {
     const struct traj_seg *g;
     double k[4];
-    uint32_t index, j;
-    int n;
 
     if (tj->end == tj->first) {
         memcpy(p, tj->pos, sizeof tj->pos);
         return;
     }
-    index = seg_of(tj, tj->cur, s);
+    uint32_t index = seg_of(tj, tj->cur, s);
     g = traj_cseg(tj, index);
     if (s >= g->s1) memcpy(p, g->prim.end, sizeof g->prim.end);
     else path_at(&g->prim, s - g->s0, p);
-    for (j = index, n = 0; n < SCAN_LIMIT; j--, n++) {
+    for (uint32_t j = g->lo; (int32_t)(g->hi - j) >= 0; j++) {
         const struct traj_seg *q = traj_cseg(tj, j);
-        if (!(s - q->s0 < reach(q))) break;
-        if (q->w > 0) {
-            path_round((s - q->s0) / q->w, 1, k);
-            for (int i = 0; i < PATH_AXES; i++) p[i] += q->du[i] * q->w * k[0];
-        }
-        if (j == tj->first) break;
-    }
-    for (j = index + 1, n = 0; j != tj->end && n < SCAN_LIMIT; j++, n++) {
-        const struct traj_seg *q = traj_cseg(tj, j);
-        if (!(q->s0 - s < reach(q))) break;
-        if (q->w > 0) {
-            path_round((s - q->s0) / q->w, -1, k);
-            for (int i = 0; i < PATH_AXES; i++) p[i] += q->du[i] * q->w * k[0];
-        }
+        if (!(fabs(s - q->s0) < q->w)) continue;
+        path_round((s - q->s0) / q->w, (int32_t)(index - j) >= 0 ? 1 : -1, k);
+        for (int i = 0; i < PATH_AXES; i++) p[i] += q->du[i] * q->w * k[0];
     }
 }
 
@@ -311,6 +478,25 @@ static double bound3(double a, double m, double c)
     return top + fabs(a - 2 * m + c) / 8;
 }
 
+/* Sum of the jumps of d3p/ds3 inside the cell: there d2p/ds2 has corners. */
+static void slope_jumps(const struct traj *tj, const struct traj_cell *c, double jump[PATH_AXES])
+{
+    double a = c->s0, e = c->s0 + c->len, tiny = 1e-9 * c->len;
+    uint32_t done = c->seg - TRAJ_SEGS; /* junctions up to here were counted */
+
+    for (uint32_t t = c->seg; t != tj->end && traj_cseg(tj, t)->s0 < e; t++) {
+        const struct traj_seg *g = traj_cseg(tj, t);
+        for (uint32_t j = g->lo; (int32_t)(g->hi - j) >= 0; j++) {
+            const struct traj_seg *q = traj_cseg(tj, j);
+            if ((int32_t)(j - done) <= 0 || q->w <= 0) continue;
+            done = j;
+            double lo = q->s0 - q->w, hi = q->s0 + q->w;
+            int n = (lo > a + tiny && lo < e - tiny) + (hi > a + tiny && hi < e - tiny);
+            for (int i = 0; n > 0 && i < PATH_AXES; i++) jump[i] += n * 1.5 * fabs(q->du[i]) / (q->w * q->w);
+        }
+    }
+}
+
 /* Bounds of motion on the cell from the axes' limits and the path's derivatives. */
 static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int arc, double share, double cap)
 {
@@ -319,8 +505,9 @@ static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int ar
     double eps = c->len * 1e-7, b[3], f[3];
     double q1[PATH_AXES], q2[PATH_AXES], acc[PATH_AXES];
     int group = g->prim.metric == PATH_XYZ ? PATH_X : g->prim.metric == PATH_UVW ? PATH_U : PATH_A;
-    double ma = 0, mm = 0, mc = 0;
+    double ma = 0, mm = 0, mc = 0, edges[PATH_AXES] = { 0 };
 
+    if (rounded) slope_jumps(tj, c, edges);
     rounded_jet(tj, c->seg, c->s0 + eps, &ja);
     rounded_jet(tj, seg_of(tj, c->seg, c->s0 + c->len / 2), c->s0 + c->len / 2, &jm);
     rounded_jet(tj, seg_of(tj, c->seg, c->s0 + c->len - eps), c->s0 + c->len - eps, &jc);
@@ -328,7 +515,7 @@ static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int ar
     for (int i = 0; i < PATH_AXES; i++) {
         double reserve = arc && !rounded ? ARC_CAP : ROUND_CAP;
         q1[i] = bound3(ja.d1[i], jm.d1[i], jc.d1[i]);
-        q2[i] = bound3(ja.d2[i], jm.d2[i], jc.d2[i]);
+        q2[i] = bound3(ja.d2[i], jm.d2[i], jc.d2[i]) + edges[i] * c->len / 8;
         acc[i] = share * axis_acc(tj, i, g);
         if (q1[i] > 1e-12 && tj->lim.v[i] > 0) cap = fmin(cap, tj->lim.v[i] * tj->lim.v[i] / (q1[i] * q1[i]));
         if (q2[i] > 0) cap = fmin(cap, reserve * acc[i] / q2[i]);
@@ -375,29 +562,29 @@ static int cut_cell(struct traj *tj)
     const struct traj_seg *g = traj_seg(tj, tj->cut_seg);
     end = tj->s_final;
 
-    /* Roundings and zones: begin and end cells at their edges, cut them in parts. */
-    while (tj->cut_join != tj->end) {
-        const struct traj_seg *q = traj_seg(tj, tj->cut_join);
-        if (q->s0 + reach(q) > a + tiny) break;
-        tj->cut_join++;
-    }
-    for (j = tj->cut_join; j != tj->end; j++) {
-        const struct traj_seg *q = traj_seg(tj, j);
-        double lo = q->s0 - reach(q), hi = q->s0 + reach(q);
-        if (reach(q) <= 0) continue;
-        if (lo > a + tiny) {
-            end = fmin(end, lo);
-            break;
+    /* Roundings and zones: a lone one begins and ends cells at its edges; all are cut in parts. Where
+     * they overlap only the parts are cut, and bound_cell() allows for the edges within. */
+    for (uint32_t t = tj->cut_seg; t != tj->end && traj_seg(tj, t)->s0 < end && traj_seg(tj, t)->s0 < a + step; t++) {
+        const struct traj_seg *on = traj_seg(tj, t);
+        for (uint32_t j = on->lo; (int32_t)(on->hi - j) >= 0; j++) {
+            const struct traj_seg *q = traj_seg(tj, j);
+            double lo = q->s0 - reach(q), hi = q->s0 + reach(q);
+            if (reach(q) <= 0 || hi <= a + tiny || lo >= end) continue;
+            if (lo > a + tiny) {
+                if (q->solo || !rounded) end = fmin(end, lo);
+                else if (q->w > 0) step = fmin(step, fmax(lo - a, q->w / 4));
+                continue;
+            }
+            if (q->solo) end = fmin(end, hi);
+            if (q->w > 0) {
+                rounded = 1;
+                step = fmin(step, q->w / 4);
+            } else {
+                share = KINK_SHARE;
+                cap = fmin(cap, q->kink_b);
+            }
         }
-        if (hi <= a + tiny) continue;
-        end = fmin(end, hi);
-        if (q->w > 0) {
-            rounded = 1;
-            step = fmin(step, q->w / 4);
-        } else {
-            share = KINK_SHARE;
-            cap = fmin(cap, q->kink_b);
-        }
+        if (t - tj->cut_seg >= CELL_MOVES) break;
     }
     /* Ends of moves where the bounds or the feed change. */
     for (j = tj->cut_seg + 1; j != tj->end; j++) {
@@ -730,11 +917,13 @@ static void work(struct traj *tj)
 {
     if (tj->end == tj->first) return;
     const struct traj_seg *last = traj_cseg(tj, tj->end - 1);
-    if (!tj->tail_forced && tj->s_final < last->s1 && tj->dir > 0 && tj->s_final - tj->s < tail_guard(tj)) {
+    if (tj->hungry < HUNGRY) tj->hungry++;
+    else if (!tj->tail_forced && tj->s_final < last->s1 && tj->dir > 0 && tj->s_final - tj->s < tail_guard(tj)) {
         tj->tail_forced = 1;
         tj->n_forced++;
-        update_final(tj);
     }
+    finish_joins(tj);
+    update_final(tj);
     for (int n = 0; n < CUT_BUDGET && cut_cell(tj); n++) {}
     sweep_envelope(tj);
 }
@@ -744,7 +933,6 @@ static void retire(struct traj *tj)
 {
     pass_moves(tj);
     while (tj->cur - tj->first > TRAJ_HISTORY) tj->first++;
-    if ((int32_t)(tj->first - tj->cut_join) > 0) tj->cut_join = tj->first;
     while (tj->cell_first != tj->cell) {
         const struct traj_cell *second = cell_at(tj, tj->cell_first + 1);
         int old = second->s0 <= traj_seg(tj, tj->first)->s0;
@@ -846,8 +1034,8 @@ int traj_active(const struct traj *tj)
 {
     if (tj->end == tj->first) return 0;
     const struct traj_seg *g = traj_cseg(tj, tj->cur);
-    if (tj->s - g->s0 < g->w) return 2;
-    if (tj->cur + 1 != tj->end && g->s1 - tj->s < traj_cseg(tj, tj->cur + 1)->w) return 2;
+    for (uint32_t j = g->lo; (int32_t)(g->hi - j) >= 0; j++)
+        if (fabs(tj->s - traj_cseg(tj, j)->s0) < traj_cseg(tj, j)->w) return 2;
     return 1;
 }
 

@@ -82,7 +82,13 @@ struct traj_seg {
     int cut;               /* a cell must begin at s0 */
     double du[PATH_AXES];  /* jump of dp/ds */
     double dk[PATH_AXES];  /* jump of d2p/ds2 */
+    double bend;           /* largest group norm of du */
     double w;              /* half width of the rounding, 0 = none */
+    int solo;              /* the rounding overlaps no other */
+    double tol_join;       /* tolerance at s0 */
+    double off;            /* sum of |du| w E of all final roundings at s0: bounds the deviation */
+    /* roundings that reach into this move: junctions lo .. hi, none when hi - lo < 0 */
+    uint32_t lo, hi;
     double zone;           /* JOIN_KINK: half width of the region with reduced limits */
     double kink_b;         /* JOIN_KINK: cap of b */
 };
@@ -122,13 +128,14 @@ struct traj {
 
     /* moves: first .. cur .. end, free running counters; cur: the move that started last */
     uint32_t first, cur, end;
+    uint32_t fin;        /* first junction whose rounding is not final */
     double s_final;      /* the path is final up to here */
+    int hungry;          /* cycles since the last append */
     int tail_forced;     /* s_final was moved to the end of the last move */
 
     /* cells */
     uint32_t cell_first, cell_end;
     uint32_t cut_seg;    /* move that contains cut_s */
-    uint32_t cut_join;   /* first junction whose rounding ends after cut_s */
     double cut_s;
 
     /* envelope */
