@@ -10,6 +10,6 @@ $(O)/test/tp-$(1): $(call objs,ul,src/emc/tp/test/$(1).c src/emc/tp/test/bench.c
 DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/tp/test/$(1).c src/emc/tp/test/bench.c $(TP_SOURCES)))
 EXTRA_TARGETS += $(O)/test/tp-$(1)
 endef
-$(eval $(call tp_test,basic))
 $(eval $(call tp_test,property))
 $(eval $(call tp_test,api))
+$(eval $(call tp_test,optimum))

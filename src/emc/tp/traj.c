@@ -10,7 +10,9 @@
 #define JOIN_BUDGET 16     /* junctions made final in a cycle */
 #define CUT_BUDGET 32      /* cells made in a cycle */
 #define SWEEP_BUDGET 512   /* cells looked at by the envelope in a cycle */
-#define CELLS_CYCLE 24     /* the speed is capped so that so many cells in a row last a cycle */
+#define SPLIT 0.15         /* share of acceleration that a cell may lose to changing curvature; */
+#define SPLITS 3           /* it is halved up to so many times */
+#define CELLS_CYCLE 40     /* the speed is capped so that so many cells in a row last a cycle */
 #define PORTIONS (8 * CELLS_CYCLE) /* pieces of constant acceleration in a cycle, never reached */
 #define STOP_SCAN 256      /* cells looked ahead for a stop at a given place */
 #define SPREAD 24          /* junctions that a rounding may reach over, each side */
@@ -471,11 +473,33 @@ void traj_pose(const struct traj *tj, double s, double p[PATH_AXES])
 
 /* ---- cells ------------------------------------------------------------------- */
 
-/* Largest |f| on a cell from its values at both ends and the middle, f being nearly quadratic. */
-static double bound3(double a, double m, double c)
+/* Speed that a move allows in its metric: feed, override, limit of speed. */
+static double feed_of(const struct traj *tj, uint32_t index, double scale, double vlimit)
 {
-    double top = fmax(fabs(a), fmax(fabs(m), fabs(c)));
-    return top + fabs(a - 2 * m + c) / 8;
+    const struct traj_seg *g = traj_cseg(tj, index);
+    double v = g->vmax;
+
+    if (g->follow == TRAJ_FEED) v = fmin(v, g->feed * fmin(scale, fmax(tj->drive.max_scale, 1)));
+    if (g->follow != TRAJ_SYNC_POSITION && g->prim.metric != PATH_ABC) v = fmin(v, vlimit);
+    return v;
+}
+
+/* Cap of b by the same. */
+static double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit)
+{
+    if (c->metric < 1e-12) return 1e30;
+    double v = feed_of(tj, c->seg, scale, vlimit);
+    if (c->seg2 != c->seg) v = fmax(v, feed_of(tj, c->seg2, scale, vlimit));
+    v /= c->metric;
+    return v * v;
+}
+
+/* Range of f on a cell from its values at both ends and the middle, f being nearly quadratic. */
+static void range3(double a, double m, double c, double more, double *lo, double *hi)
+{
+    more += fabs(a - 2 * m + c) / 8;
+    *lo = fmin(a, fmin(m, c)) - more;
+    *hi = fmax(a, fmax(m, c)) + more;
 }
 
 /* Sum of the jumps of d3p/ds3 inside the cell: there d2p/ds2 has corners. */
@@ -497,15 +521,25 @@ static void slope_jumps(const struct traj *tj, const struct traj_cell *c, double
     }
 }
 
-/* Bounds of motion on the cell from the axes' limits and the path's derivatives. */
-static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int arc, double share, double cap)
+/* Lines through the values f at b = 0, cap / 2, cap. */
+static void chords(struct traj_line line[2], const double f[3], double cap)
+{
+    for (int n = 0; n < 2; n++) {
+        double from = fmax(f[n], 0), to = fmax(f[n + 1], 0);
+        line[n].c2 = fmax(0, (from - to) / (cap / 2));
+        line[n].c1 = from + line[n].c2 * cap * n / 2;
+    }
+}
+
+/* Bounds of motion on the cell from the axes' limits and the path's derivatives. Returns how much
+ * of the acceleration is lost because the curvature changes along the cell. */
+static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int arc, double share, double cap)
 {
     struct path_jet ja, jm, jc;
     const struct traj_seg *g = traj_cseg(tj, c->seg);
-    double eps = c->len * 1e-7, b[3], f[3];
-    double q1[PATH_AXES], q2[PATH_AXES], acc[PATH_AXES];
+    double eps = c->len * 1e-7, lo1[PATH_AXES], hi1[PATH_AXES], lo2[PATH_AXES], hi2[PATH_AXES], acc[PATH_AXES], spread = 0;
     int group = g->prim.metric == PATH_XYZ ? PATH_X : g->prim.metric == PATH_UVW ? PATH_U : PATH_A;
-    double ma = 0, mm = 0, mc = 0, edges[PATH_AXES] = { 0 };
+    double ma = 0, mm = 0, mc = 0, edges[PATH_AXES] = { 0 }, least, most;
 
     if (rounded) slope_jumps(tj, c, edges);
     rounded_jet(tj, c->seg, c->s0 + eps, &ja);
@@ -513,19 +547,22 @@ static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int ar
     rounded_jet(tj, seg_of(tj, c->seg, c->s0 + c->len - eps), c->s0 + c->len - eps, &jc);
 
     for (int i = 0; i < PATH_AXES; i++) {
-        double reserve = arc && !rounded ? ARC_CAP : ROUND_CAP;
-        q1[i] = bound3(ja.d1[i], jm.d1[i], jc.d1[i]);
-        q2[i] = bound3(ja.d2[i], jm.d2[i], jc.d2[i]) + edges[i] * c->len / 8;
+        double reserve = arc && !rounded ? ARC_CAP : ROUND_CAP, q1, q2;
+        range3(ja.d1[i], jm.d1[i], jc.d1[i], 0, &lo1[i], &hi1[i]);
+        range3(ja.d2[i], jm.d2[i], jc.d2[i], edges[i] * c->len / 8, &lo2[i], &hi2[i]);
         acc[i] = share * axis_acc(tj, i, g);
-        if (q1[i] > 1e-12 && tj->lim.v[i] > 0) cap = fmin(cap, tj->lim.v[i] * tj->lim.v[i] / (q1[i] * q1[i]));
-        if (q2[i] > 0) cap = fmin(cap, reserve * acc[i] / q2[i]);
+        q1 = fmax(hi1[i], -lo1[i]);
+        q2 = fmax(hi2[i], -lo2[i]);
+        if (q1 > 1e-12 && tj->lim.v[i] > 0) cap = fmin(cap, tj->lim.v[i] * tj->lim.v[i] / (q1 * q1));
+        if (q2 > 0) cap = fmin(cap, reserve * acc[i] / q2);
     }
     for (int i = group; i < group + 3; i++) {
         ma += ja.d1[i] * ja.d1[i];
         mm += jm.d1[i] * jm.d1[i];
         mc += jc.d1[i] * jc.d1[i];
     }
-    c->metric = bound3(sqrt(ma), sqrt(mm), sqrt(mc));
+    range3(sqrt(ma), sqrt(mm), sqrt(mc), 0, &least, &most);
+    c->metric = most;
     if (rounded && c->metric * g->stretch > 2) {
         /* The feed of a move that hardly moves in its metric must not hold up a neighbour's. */
         uint32_t other = c->s0 + c->len / 2 > (g->s0 + g->s1) / 2 ? c->seg + 1 : c->seg - 1;
@@ -536,18 +573,31 @@ static void bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int ar
     cap = fmin(cap, 1e12);
     c->cap = cap;
 
-    /* |u| <= min_i (A_i - q2_i b) / q1_i is concave in b: two chords over [0, cap] bound it from inside. */
+    /* Rows |q1 u + q2 b| <= A for all q1, q2 in their ranges, and |q1 u| <= A. With u of one sign
+     * they are bounds of u that are concave in b: two chords over [0, cap] lie inside. */
+    double up[3], down[3];
     for (int n = 0; n < 3; n++) {
-        b[n] = cap * n / 2;
-        f[n] = share * g->acc;
-        for (int i = 0; i < PATH_AXES; i++)
-            if (q1[i] > 1e-12) f[n] = fmin(f[n], (acc[i] - q2[i] * b[n]) / q1[i]);
-        if (f[n] < 0) f[n] = 0;
+        double b = cap * n / 2;
+        up[n] = down[n] = share * g->acc;
+        for (int i = 0; i < PATH_AXES; i++) {
+            double top = fmin(acc[i], acc[i] - hi2[i] * b), bottom = fmin(acc[i], acc[i] + lo2[i] * b);
+            if (hi1[i] > 1e-12) {
+                up[n] = fmin(up[n], top / hi1[i]);
+                down[n] = fmin(down[n], bottom / hi1[i]);
+            }
+            if (lo1[i] < -1e-12) {
+                up[n] = fmin(up[n], bottom / -lo1[i]);
+                down[n] = fmin(down[n], top / -lo1[i]);
+            }
+        }
     }
-    for (int n = 0; n < 2; n++) {
-        c->c2[n] = fmax(0, (f[n] - f[n + 1]) / (b[n + 1] - b[n]));
-        c->c1[n] = f[n] + c->c2[n] * b[n];
-    }
+    chords(c->up, up, cap);
+    chords(c->down, down, cap);
+
+    /* What the ranges of curvature cost, as a share of acceleration, if acceleration limits the speed. */
+    for (int i = 0; i < PATH_AXES; i++)
+        if (hi2[i] > lo2[i]) spread = fmax(spread, (hi2[i] - lo2[i]) * cap / acc[i]);
+    return cap < feed_b(tj, c, tj->drive.max_scale, 1e99) ? spread : 0;
 }
 
 /* Makes the next cell of the final path. 0: nothing to do. */
@@ -613,7 +663,10 @@ static int cut_cell(struct traj *tj)
         double v = (end - cell_at(tj, tj->cell_end - CELLS_CYCLE + 1)->s0) / tj->dt;
         cap = fmin(cap, v * v);
     }
-    bound_cell(tj, c, rounded, arc, share, cap);
+    for (int n = 0; bound_cell(tj, c, rounded, arc, share, cap) > SPLIT && rounded && n < SPLITS; n++) {
+        c->len /= 2;
+        end = a + c->len;
+    }
     tj->cut_s = end;
     tj->cell_end++;
     return 1;
@@ -621,33 +674,12 @@ static int cut_cell(struct traj *tj)
 
 /* ---- envelope ---------------------------------------------------------------- */
 
-/* Speed that a move allows in its metric: feed, override, limit of speed. */
-static double feed_of(const struct traj *tj, uint32_t index, double scale, double vlimit)
+/* Highest b at distance d before a boundary that must be passed with at most b_end (line: bound of
+ * braking), or at distance d after one passed with b_end (line: bound of speeding up). */
+static double ramp_b(const struct traj_line line[2], double b_end, double d)
 {
-    const struct traj_seg *g = traj_cseg(tj, index);
-    double v = g->vmax;
-
-    if (g->follow == TRAJ_FEED) v = fmin(v, g->feed * fmin(scale, fmax(tj->drive.max_scale, 1)));
-    if (g->follow != TRAJ_SYNC_POSITION && g->prim.metric != PATH_ABC) v = fmin(v, vlimit);
-    return v;
-}
-
-/* Cap of b by the same. */
-static double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit)
-{
-    if (c->metric < 1e-12) return 1e30;
-    double v = feed_of(tj, c->seg, scale, vlimit);
-    if (c->seg2 != c->seg) v = fmax(v, feed_of(tj, c->seg2, scale, vlimit));
-    v /= c->metric;
-    return v * v;
-}
-
-/* Highest b at distance d before a boundary that must be passed with at most b_end, or at
- * distance d after one passed with b_end: the bounds are the same for both signs of u. */
-static double ramp_b(const struct traj_cell *c, double b_end, double d)
-{
-    double p = (b_end + 2 * d * c->c1[0]) / (1 + 2 * d * c->c2[0]);
-    double q = (b_end + 2 * d * c->c1[1]) / (1 + 2 * d * c->c2[1]);
+    double p = (b_end + 2 * d * line[0].c1) / (1 + 2 * d * line[0].c2);
+    double q = (b_end + 2 * d * line[1].c1) / (1 + 2 * d * line[1].c2);
     return p < q ? p : q;
 }
 
@@ -674,7 +706,7 @@ static void sweep_envelope(struct traj *tj)
         double k = 0;
         if (!c->rest) {
             double ahead = tj->sweep + 1 == tj->swept_end ? 0 : cell_at(tj, tj->sweep + 1)->k;
-            k = fmin(ramp_b(c, ahead, c->len), c->cap);
+            k = fmin(ramp_b(c->down, ahead, c->len), c->cap);
             k = fmin(k, feed_b(tj, c, tj->sweep_scale, tj->sweep_vlimit));
         }
         int same = fabs(k - c->k) <= 1e-12 * k;
@@ -695,20 +727,31 @@ static double clamp_b(const struct traj_cell *c, double b)
     return b < c->cap ? b : c->cap;
 }
 
-/* Acceleration allowed at b. */
-static double allowed(const struct traj_cell *c, double b)
+/* Bounds of braking and of speeding up in the direction of motion. */
+static const struct traj_line *brakes(const struct traj *tj, const struct traj_cell *c)
 {
-    double p = c->c1[0] - c->c2[0] * b, q = c->c1[1] - c->c2[1] * b;
+    return tj->dir > 0 ? c->down : c->up;
+}
+
+static const struct traj_line *speeds(const struct traj *tj, const struct traj_cell *c)
+{
+    return tj->dir > 0 ? c->up : c->down;
+}
+
+/* Acceleration allowed at b. */
+static double allowed(const struct traj_line line[2], double b)
+{
+    double p = line[0].c1 - line[0].c2 * b, q = line[1].c1 - line[1].c2 * b;
     double f = p < q ? p : q;
     return f > 0 ? f : 0;
 }
 
 /* Highest speed after accelerating for t from v: v' = v + t (c1 - c2 v'^2). */
-static double accelerated(const struct traj_cell *c, double v, double t)
+static double accelerated(const struct traj_line line[2], double v, double t)
 {
     double best = 1e30;
     for (int n = 0; n < 2; n++) {
-        double top = v + c->c1[n] * t, k = c->c2[n] * t;
+        double top = v + line[n].c1 * t, k = line[n].c2 * t;
         double r = 2 * top / (1 + sqrt(1 + 4 * k * top));
         if (r < best) best = r;
     }
@@ -716,14 +759,14 @@ static double accelerated(const struct traj_cell *c, double v, double t)
 }
 
 /* Highest speed in [lo, hi] after t such that the boundary at distance d can still be met with b_end. */
-static double braked(const struct traj_cell *c, double b_end, double d, double v, double t, double lo, double hi)
+static double braked(const struct traj_cell *c, const struct traj_line brake[2], double b_end, double d, double v, double t, double lo, double hi)
 {
     if ((v + hi) * t / 2 > d) hi = 2 * d / t - v;
     if (hi <= lo) return lo;
-    if (hi * hi <= clamp_b(c, ramp_b(c, b_end, d - (v + hi) * t / 2))) return hi;
+    if (hi * hi <= clamp_b(c, ramp_b(brake, b_end, d - (v + hi) * t / 2))) return hi;
     for (int n = 0; n < 24; n++) {
         double mid = (lo + hi) / 2;
-        if (mid * mid <= clamp_b(c, ramp_b(c, b_end, d - (v + mid) * t / 2))) lo = mid;
+        if (mid * mid <= clamp_b(c, ramp_b(brake, b_end, d - (v + mid) * t / 2))) lo = mid;
         else hi = mid;
     }
     return lo;
@@ -807,14 +850,14 @@ static double stop_b(const struct traj *tj, double *d)
         c = &tj->cells[index & (TRAJ_CELLS - 1)];
         if (tj->dir > 0 ? c->s0 + c->len >= stop : c->s0 <= stop) {
             double part = tj->dir > 0 ? stop - c->s0 : c->s0 + c->len - stop;
-            b = fmin(c->cap, ramp_b(c, 0, part));
+            b = fmin(c->cap, ramp_b(brakes(tj, c), 0, part));
             index = tj->dir > 0 ? index - 1 : index + 1;
             break;
         }
     }
     while (index != tj->cell) {
         c = &tj->cells[index & (TRAJ_CELLS - 1)];
-        b = fmin(c->cap, ramp_b(c, b, c->len));
+        b = fmin(c->cap, ramp_b(brakes(tj, c), b, c->len));
         index = tj->dir > 0 ? index - 1 : index + 1;
     }
     return b;
@@ -854,7 +897,7 @@ static void step_path(struct traj *tj)
         else b_end = tj->cell == tj->cell_first ? 0 : c->kr;
         if (vt <= 0 && v <= 0) break;
         double d_stop = d, b_stop = stop_b(tj, &d_stop);
-        if (b_stop >= 0 && b <= ramp_b(c, b_stop, d_stop) * (1 + 1e-9)) {
+        if (b_stop >= 0 && b <= ramp_b(brakes(tj, c), b_stop, d_stop) * (1 + 1e-9)) {
             if (d_stop <= 0) { /* arrived */
                 tj->v = 0;
                 break;
@@ -867,7 +910,7 @@ static void step_path(struct traj *tj)
                 b_end = fmin(b_end, b_stop);
             }
         }
-        double brake = allowed(c, b), low2 = fmax(0, b - 2 * brake * d);
+        double brake = allowed(brakes(tj, c), b), low2 = fmax(0, b - 2 * brake * d);
 
         if (v > vt) { /* too fast: brake to vt */
             double tv = brake > 0 ? (v - vt) / brake : 1e30;
@@ -880,7 +923,7 @@ static void step_path(struct traj *tj)
             }
             ve2 = xv < d ? -1 : low2;
         } else {
-            ve2 = fmax(low2, fmin(fmin(ramp_b(c, b, d), vt * vt), b_end));
+            ve2 = fmax(low2, fmin(fmin(ramp_b(speeds(tj, c), b, d), vt * vt), b_end));
         }
         if (ve2 >= 0) { /* reach the boundary within the cycle? */
             double ve = sqrt(ve2), te = v + ve > 0 ? 2 * d / (v + ve) : 1e30;
@@ -893,8 +936,8 @@ static void step_path(struct traj *tj)
         }
         double lo = v - brake * t, hi;
         if (lo < 0) lo = 0;
-        hi = v > vt ? fmax(lo, vt) : fmin(accelerated(c, v, t), vt);
-        double v1 = braked(c, b_end, d, v, t, lo, hi);
+        hi = v > vt ? fmax(lo, vt) : fmin(accelerated(speeds(tj, c), v, t), vt);
+        double v1 = braked(c, brakes(tj, c), b_end, d, v, t, lo, hi);
         x = (v + v1) * t / 2;
         if (v1 <= 0 && brake > 0 && v / brake < t) x = b / (2 * brake); /* comes to rest within t */
         if (x > d) x = d;
@@ -957,7 +1000,7 @@ static int sweep_back(struct traj *tj)
         const struct traj_cell *c = cell_at(tj, tj->back_sweep);
         struct traj_cell *next = cell_at(tj, tj->back_sweep + 1);
         double kr = tj->back_sweep == tj->cell_first || c->rest ? 0 : c->kr;
-        kr = fmin(fmin(ramp_b(c, kr, c->len), c->cap), feed_b(tj, c, scale, tj->drive.vlimit));
+        kr = fmin(fmin(ramp_b(c->up, kr, c->len), c->cap), feed_b(tj, c, scale, tj->drive.vlimit));
         next->kr = next->rest ? 0 : kr;
         tj->back_sweep++;
     }

@@ -9,8 +9,8 @@
  * Invariants, held whatever is commanded and whenever:
  *   1. the position is always a point of the rounded path; a rounded path leaves
  *      the programmed one by no more than the tolerance;
- *   2. within a cell |u| <= min_i(c1_i - c2_i b) and b <= cap, u being the acceleration
- *      along the path and b the squared speed: that keeps every axis within its limits;
+ *   2. within a cell -down(b) <= u <= up(b) and b <= cap, u being the acceleration along
+ *      the path and b the squared speed: that keeps every axis within its limits;
  *   3. from the present state, braking by the bound of 2 keeps 2 in all cells ahead and
  *      ends at rest before the last cell's end.
  * Overrides, pause, abort and reverse only change the speed that step() aims at.
@@ -93,11 +93,16 @@ struct traj_seg {
     double kink_b;         /* JOIN_KINK: cap of b */
 };
 
+/* A bound of acceleration that shrinks with the squared speed. */
+struct traj_line {
+    double c1, c2;
+};
+
 /* A piece of path with the bounds of motion on it. */
 struct traj_cell {
     double s0, len;
     double cap;          /* of b */
-    double c1[2], c2[2]; /* |u| <= c1 - c2 b, both lines */
+    struct traj_line up[2], down[2]; /* -(c1 - c2 b) of down <= u <= c1 - c2 b of up, all four lines; c2 >= 0 */
     double metric;       /* largest |dp/ds| in the feed's metric */
     uint32_t seg;        /* move at s0: feed */
     uint32_t seg2;       /* the other move of a rounding between very different ones, else seg */
