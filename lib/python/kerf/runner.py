@@ -12,6 +12,7 @@ import array
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -33,25 +34,39 @@ class RunError(Exception):
     """Ends the run with exit status 1; the text is for the user."""
 
 
+def read_tools(path):
+    """Tools of a table as the interpreter takes them: number, nine offsets, diameter, two angles, orientation."""
+    tools = []
+    try:
+        text = path.read_text(errors="replace")
+    except OSError:
+        return tools
+    for line in text.splitlines():
+        words = {m[1].upper(): float(m[2]) for m in re.finditer(r"([A-Za-z])\s*([+-]?[\d.]+)", line.split(";")[0])}
+        if "T" in words:
+            tools.append((int(words["T"]), *(words.get(c, 0.0) for c in "XYZABCUVWDIJ"), int(words.get("Q", 0))))
+    return tools
+
+
 def check_program(program, ini_path, env):
     """Reads the whole program once; raises RunError with place and reason of a mistake."""
+    import gcode
     folder = Path(ini_path).parent
     ini = IniValues(ini_path, env)
-    command = ["rs274", "-g", "-i", str(ini_path)]
-    table = ini.get("EMCIO", "TOOL_TABLE")
-    if table:
-        command += ["-t", str(folder / table)]
+    letters = (ini.get("TRAJ", "COORDINATES") or "XYZ").upper()
     with tempfile.TemporaryDirectory() as scratch:
         var = folder / (ini.get("RS274NGC", "PARAMETER_FILE") or "rs274ngc.var")
         copy = Path(scratch) / "check.var"
         if var.exists():
             shutil.copyfile(var, copy)
-        done = subprocess.run(command + ["-v", str(copy), str(program)], cwd=folder, stdin=subprocess.DEVNULL,
-                              env=dict(env, INI_FILE_NAME=str(ini_path)), stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, text=True, errors="replace")
-    if done.returncode:
-        lines = [l for l in done.stderr.splitlines() if l.strip() and "executing" not in l]
-        raise RunError("\n".join(lines) or f"{program}: rs274 ended with status {done.returncode}")
+        startup = ini.get("RS274NGC", "RS274NGC_STARTUP_CODE")
+        result = gcode.load(str(program), str(copy), [startup] if startup else None,
+                            tools=read_tools(folder / (ini.get("EMCIO", "TOOL_TABLE") or "tool.tbl")),
+                            axis_mask=sum(1 << i for i, c in enumerate("XYZABCUVW") if c in letters),
+                            linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
+                            ini=str(ini_path))
+    if result.error:
+        raise RunError((result.fault["report"].rstrip() + "\n" + result.fault["fix"]).rstrip())
 
 
 class Machine:

@@ -12,7 +12,7 @@ try() { # name, sed expression on mill.ini
 }
 try "missing realtime module" 's/^EMCMOT = motmod/EMCMOT = nomod/' 'nomod' 
 try "missing HAL file" 's/^HALFILE = spindle.hal/HALFILE = nowhere.hal/' 'nowhere'
-try "missing display" 's/XXX/XXX/' 'XXX'
+
 try "bad INI line" 's/^JOINTS = 3/JOINTS 3/' 'error:'
 try "bad number of joints" 's/^JOINTS = 3/JOINTS = 30/' 'error:'
 try "missing task" 's/^TASK = milltask/TASK = notask/' 'notask'

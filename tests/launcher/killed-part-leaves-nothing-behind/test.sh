@@ -40,8 +40,10 @@ for victim in rtapi_app milltask linuxcncsvr display session guard; do
     *) pid=$(mine "$victim") ;;
     esac
     kill -9 $pid
+    # Without the server of remote clients the machine goes on: end it as a user would.
+    [ $victim = linuxcncsvr ] && kill $(mine sleep)
     wait "$guard"; status=$?
     for _ in $(seq 250); do [ "$(left_over)" = " nothing" ] && break; sleep 0.02; done
     echo "$victim: status $([ $status -ne 0 ] && echo not 0 || echo 0), left over:$(left_over)"
-    [ "$(left_over)" = " nothing" ] || { cat "$out/log" >&2; KERF_INSTANCE=$KERF_INSTANCE realtime stop; }
+    [ "$(left_over)" = " nothing" ] || { cat "$out/log" >&2; realtime stop; }
 done
