@@ -33,6 +33,10 @@ FUNCTION(_) {
     rtapi_s64 counts, delta;
     double step = max_accel * fperiod, tiny = step * fperiod * 0.001, request = 0, limit, error, theta;
     int moving = 0, active_now;
+    if(!isfinite(max_accel + max_vel + scale_in + angle_degrees_in)) {
+        active = 0;                     /* nothing to move by */
+        return;
+    }
     if(!running) {
         running = 1;
         current_angle_degrees = angle_degrees_in;

@@ -31,7 +31,7 @@ RTAPI_MP_ARRAY_STRING(names, MAX_CHAN, "names of the channels");
 /* What update-counters tells capture-position. */
 struct buffer {
     rtapi_s64 raw, index, latch;
-    rtapi_u32 timestamp;                /* ns, when the last count came */
+    rtapi_u64 timestamp;                /* ns, when the last count came */
     char counted, index_found, latch_found;
 };
 
@@ -40,7 +40,7 @@ struct channel {
     rtapi_s64 raw;                      /* added to by capture-position for missing teeth */
     unsigned phases;                    /* A and B of the last pass */
     int old_z, old_latch;
-    rtapi_u32 since_up;                 /* ns since the last count up */
+    rtapi_u64 since_up;                 /* ns since the last count up */
     int gaps;                           /* missing teeth found; cleared by capture-position */
     hal_bool_t phase_a, phase_b, phase_z, x4_mode, counter_mode, latch_input, latch_rising, latch_falling;
     hal_sint_t rawcounts, missing_teeth;
@@ -52,7 +52,7 @@ struct channel {
 
     /* Of capture-position. */
     rtapi_s64 count, index_count, latch_count;
-    rtapi_u32 last_timestamp;
+    rtapi_u64 last_timestamp;
     int captures;                       /* with counts, since standstill; up to 2 */
     double seen_scale, k;               /* k: units per count */
     hal_bool_t index_enable, reset;
@@ -63,7 +63,7 @@ struct channel {
 
 static int comp_id, channels;
 static struct channel *channel;
-static rtapi_u32 timebase;              /* ns, wraps; written by update-counters */
+static rtapi_u64 timebase;              /* ns; atomic; written by update-counters */
 
 /* ---- [base] -------------------------------------------------------------- */
 
@@ -134,7 +134,7 @@ static void update_counters(void *arg, long period)
         watch_index(c, buf);
         watch_latch(c, buf);
     }
-    __atomic_store_n(&timebase, timebase + (rtapi_u32)period, __ATOMIC_RELAXED);
+    __atomic_store_n(&timebase, timebase + (rtapi_u64)period, __ATOMIC_RELAXED);
 }
 
 /* ---- [servo] ------------------------------------------------------------- */
@@ -147,7 +147,7 @@ static struct buffer *swap_buffers(struct channel *c)
 }
 
 /* Adds the teeth that are missing on the wheel; returns the change of the count. */
-static rtapi_s64 add_missing_teeth(struct channel *c, rtapi_s64 raw, rtapi_u32 elapsed)
+static rtapi_s64 add_missing_teeth(struct channel *c, rtapi_s64 raw, rtapi_u64 elapsed)
 {
     int teeth = hal_get_si32(c->missing_teeth);
     rtapi_s64 change = raw - c->count;
@@ -166,7 +166,7 @@ static rtapi_s64 add_missing_teeth(struct channel *c, rtapi_s64 raw, rtapi_u32 e
 
 static void velocity_with_counts(struct channel *c, const struct buffer *buf)
 {
-    rtapi_u32 elapsed = buf->timestamp - c->last_timestamp;
+    rtapi_u64 elapsed = buf->timestamp - c->last_timestamp;
     rtapi_s64 change = add_missing_teeth(c, buf->raw, elapsed);
     c->last_timestamp = buf->timestamp;
     if(c->captures < 2) c->captures++;
@@ -177,7 +177,7 @@ static void velocity_with_counts(struct channel *c, const struct buffer *buf)
 static void velocity_without_counts(struct channel *c, double min_speed)
 {
     if(c->captures > 0) {
-        rtapi_u32 elapsed = __atomic_load_n(&timebase, __ATOMIC_RELAXED) - c->last_timestamp;
+        rtapi_u64 elapsed = __atomic_load_n(&timebase, __ATOMIC_RELAXED) - c->last_timestamp;
         if(hal_get_si32(c->missing_teeth) && elapsed > 1.5 * c->limit_dt) {
             /* Between the teeth around a gap. */
         } else if(elapsed < 1e9 / (min_speed * c->k)) {
@@ -238,7 +238,7 @@ static void capture_channel(struct channel *c)
     hal_set_real(c->position, counts * c->k);
     hal_set_real(c->position_latched, latched * c->k);
     hal_set_real(c->position_interpolated,
-                 counts * c->k + velocity * ((timebase - c->last_timestamp) * 1e-9));
+                 counts * c->k + velocity * ((__atomic_load_n(&timebase, __ATOMIC_RELAXED) - c->last_timestamp) * 1e-9));
 }
 
 /* HAL function encoder.capture-position. [servo] */

@@ -44,6 +44,7 @@ FUNCTION(_) {
     int geometry, i;
     double x = pintype == 1 ? input_s32 : pintype == 2 ? input_u32 : pintype == 3 ? input_bit : input;
     check = index;
+    if(x != x) return;                  /* not a number: no sample */
     if(nbins < 1 || nbins > BINS) {
         input_error = 1;
         return;

@@ -37,7 +37,7 @@ FUNCTION(_) {
         command_power = raster_power;
     } else {
         if(last_distance < distance_to_go || !is_zero(vector_power - last_power)) {
-            start_power = last_power;
+            start_power = isfinite(last_power) ? last_power : 0;
             start_distance = distance_to_go;
         }
         last_power = vector_power;

@@ -23,11 +23,16 @@ author "Kerf developers";
 #define BINS 1000
 
 typedef struct {
-    rtapi_s32 positive[BINS + 1], negative[BINS + 1];
+    rtapi_u64 positive[BINS + 1], negative[BINS + 1], above, below;
     rtapi_s64 last, sum;
     rtapi_u64 sum2, n;
     int running;
 } latency_histogram;
+
+/* A count on a pin of 32 bits: stays at the greatest. */
+static rtapi_s32 shown(rtapi_u64 count) {
+    return count > RTAPI_INT32_MAX ? RTAPI_INT32_MAX : (rtapi_s32)count;
+}
 
 FUNCTION(_) {
     latency_histogram *h = &data;
@@ -36,24 +41,23 @@ FUNCTION(_) {
     if(last_bin > BINS) last_bin = BINS;
     if(reset || !h->running || nsbinsize == 0) {
         for(i = 0; i <= last_bin; i++) h->positive[i] = h->negative[i] = 0;
+        h->above = h->below = 0;
         h->sum = 0;
         h->sum2 = h->n = 0;
         h->running = 1;
         latency = 0;
         latency_min = RTAPI_INT32_MAX;
         latency_max = RTAPI_INT32_MIN;
-        pextra = 0;
-        nextra = 0;
     } else {
         rtapi_s32 late = (rtapi_s32)(now - h->last - period), bin = late / nsbinsize;
         latency = late;
         if(late < latency_min) latency_min = late;
         if(late > latency_max) latency_max = late;
         if(bin >= 0) {
-            if(bin > last_bin) pextra++;
+            if(bin > last_bin) h->above++;
             else h->positive[bin]++;
         } else {
-            if(-bin > last_bin) nextra++;
+            if(-bin > last_bin) h->below++;
             else h->negative[-bin]++;
         }
         h->n++;
@@ -63,12 +67,14 @@ FUNCTION(_) {
             variance = (rtapi_s32)((h->sum2 - (rtapi_u64)(h->sum * h->sum) / h->n) / (h->n - 1));
     }
     h->last = now;
+    pextra = shown(h->above);
+    nextra = shown(h->below);
     check = index;
     if(index < 0 || index > last_bin) {
         pbinvalue = -1;
         nbinvalue = -1;
     } else {
-        pbinvalue = h->positive[index];
-        nbinvalue = h->negative[index];
+        pbinvalue = shown(h->positive[index]);
+        nbinvalue = shown(h->negative[index]);
     }
 }

@@ -11,6 +11,7 @@ license "GPL";
 author "Kerf developers";
 ;;
 double x = in_;
+if(x != x) return;              /* not a number: stay */
 if(x < min_) x = min_;
 if(x > max_) x = max_;
 out = x;

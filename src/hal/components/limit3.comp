@@ -11,6 +11,9 @@ pin in float maxa = 1e7 "Limit of the acceleration, per second squared.";
 pin in unsigned smooth_steps = 2 "Cycles before the goal in which the approach is smoothed.";
 variable double in_old;
 variable double out_old;
+variable double last_min;
+variable double last_max;
+variable double last_maxa;
 function _ "Updates the output.";
 description """
 Follows the input without exceeding the limits, and brakes early enough for *min* and *max*. The input
@@ -93,14 +96,45 @@ static double next_position(double x, double x_old, double y, double y_old,
     return (low.next + high.next) / 2;
 }
 
+/* The greatest velocity that can be braked, by a * dt in each cycle, within a
+ * distance: n whole cycles of braking follow, and the rest is spread over all. */
+static double brakable(double distance, double a, double dt) {
+    double unit = a * dt * dt, n = floor((sqrt(1 + 8 * distance / unit) - 1) / 2);
+    return distance / dt / (n + 1) + a * dt * n / 2;
+}
+
+/* Where to go instead of `next` so that braking keeps the position limits. Only
+ * the last cycles before a limit ever need it. */
+static double before_limits(double next, double y, double y_old, double low_limit, double high_limit,
+                            double a, double dt) {
+    double v = (next - y) / dt, slowest = (y - y_old) / dt;
+    if(!(y >= low_limit - EPSILON && y <= high_limit + EPSILON) || !(a > 0)) return next;
+    if(v > 0) {
+        double most = brakable(fmax(high_limit - y, 0), a, dt);
+        return v > most + EPSILON / dt ? y + fmax(most, slowest - a * dt) * dt : next;
+    }
+    if(v < 0) {
+        double most = brakable(fmax(y - low_limit, 0), a, dt);
+        return -v > most + EPSILON / dt ? y - fmax(most, -slowest - a * dt) * dt : next;
+    }
+    return next;
+}
+
 FUNCTION(_) {
     double x = enable ? in_ : 0, next;
+    if(!isfinite(x)) x = in_old;        /* no input: stay where it was */
     if(load) {
         x = fmin(max_, fmax(min_, x));
         next = x;
     } else {
         next = next_position(x, in_old, out, out_old, min_, max_, maxv, maxa, smooth_steps, fperiod);
+        /* While the limits themselves move there is nothing to keep. */
+        if(min_ == last_min && max_ == last_max && maxa == last_maxa)
+            next = before_limits(next, out, out_old, min_, max_, maxa, fperiod);
     }
+    last_min = min_;
+    last_max = max_;
+    last_maxa = maxa;
     out_old = out;
     out = next;
     in_old = x;

@@ -192,7 +192,7 @@ FUNCTION(read_inputs) {
 
 /* One step of an offset towards `in`, within its limits. */
 static void step(struct mover *m, double in, double low, double high, double v, double a, double dt) {
-    double in_velocity, least_v, most_v, least, most;
+    double in_velocity, least_v, most_v, least, most, before = m->at;
     if(in > high) in = high;
     else if(in < low) in = low;
     in_velocity = (in - m->old_in) / dt;
@@ -214,6 +214,11 @@ static void step(struct mover *m, double in, double low, double high, double v, 
         m->velocity = ramp < 0 ? least_v : most_v;
     }
     m->old_in = in;
+    if(!isfinite(m->at) || !isfinite(m->velocity)) {
+        /* A limit was not a number: stay. */
+        m->at = before;
+        m->velocity = 0;
+    }
 }
 
 static void write_moving(struct __comp_state *__comp_inst, double dt) {

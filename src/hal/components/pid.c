@@ -67,6 +67,13 @@ static double number(double x)
     return isfinite(x) ? x : 0;
 }
 
+/* An input, or what it was before when it is not a number. */
+static double input(hal_real_t pin, double before)
+{
+    double x = hal_get_real(pin);
+    return isfinite(x) ? x : before;
+}
+
 static void clear_saturation(struct pid *p)
 {
     hal_set_bool(p->saturated, 0);
@@ -121,8 +128,8 @@ static void differentiate(struct pid *p, double command, double feedback, int id
     hal_set_real(p->cmd_dd, dd);
     hal_set_real(p->cmd_ddd, number(limited((dd - old_dd) / dt, hal_get_real(p->maxcmd_ddd))));
     p->prev_index_enable = hal_get_bool(p->index_enable);
-    p->prev_cmd = number(command);
-    p->prev_fb = number(feedback);
+    p->prev_cmd = command;
+    p->prev_fb = feedback;
 }
 
 /* The sum of all terms within the output limit; sets limit_state. */
@@ -137,6 +144,7 @@ static double control_output(struct pid *p, double error, double command)
         + hal_get_real(p->cmd_d) * hal_get_real(p->ff1)
         + hal_get_real(p->cmd_dd) * hal_get_real(p->ff2)
         + hal_get_real(p->cmd_ddd) * hal_get_real(p->ff3);
+    out = number(out);
     if(max == 0) return out;
     p->limit_state = out > max ? 1 : out < -max ? -1 : 0;
     return limited(out, max);
@@ -157,7 +165,7 @@ static void enter_tune_mode(struct pid *p)
 
 static void control(struct pid *p, double dt)
 {
-    double command = hal_get_real(p->command), feedback = hal_get_real(p->feedback), error;
+    double command = input(p->command, p->prev_cmd), feedback = input(p->feedback, p->prev_fb), error;
     int enable = hal_get_bool(p->enable);
     int idx_reset = p->prev_index_enable && !hal_get_bool(p->index_enable);
     error = (hal_get_bool(p->error_previous_target) && !idx_reset ? p->prev_cmd : command) - feedback;

@@ -498,6 +498,7 @@ static void filter_voltage(SELF) {
         p.raw_volts += (arc_voltage_in - p.raw_volts) * (1 - exp(-2 * M_PI * fabs(lowpass_frequency) * p.dt));
     else
         p.raw_volts = arc_voltage_in;
+    if(!isfinite(p.raw_volts)) p.raw_volts = arc_voltage_in;
     v = (fabs(p.raw_volts) - arc_voltage_offset) * fabs(arc_voltage_scale);
     v = round(v * 1000) / 1000;
     if(fabs(v) < zero_window) v = 0;

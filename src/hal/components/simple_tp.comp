@@ -16,6 +16,11 @@ include <rtapi_math.h>;
 FUNCTION(update) {
     double step = maxaccel * fperiod, tiny = step * fperiod * 0.001, request = 0, limit = maxvel;
     active = 0;
+    if(!isfinite(maxaccel) || !isfinite(limit)) {
+        /* Without limits there is no way to move. */
+        current_vel = 0;
+        return;
+    }
     if(enable) {
         double error = target_pos - current_pos;
         if(error > tiny) {

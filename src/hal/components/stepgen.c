@@ -31,6 +31,7 @@ MODULE_DESCRIPTION("Step pulse generator in software");
 #define USER_TYPE 15
 #define PICKOFF 28                      /* bit of the accumulator that is one step */
 #define ONE_STEP ((double)(1 << PICKOFF))
+#define SETUP_MATTERS_NS 10             /* shorter ones are not asked for by hardware */
 #define HALF_STEP ((rtapi_s64)1 << (PICKOFF - 1))
 
 static int step_type[MAX_CHAN] = { [0 ... MAX_CHAN - 1] = -1 };
@@ -71,7 +72,8 @@ struct position {
  * kept at a multiple of the base period. */
 struct timing {
     hal_uint_t ns;
-    rtapi_u32 accepted;                 /* last value that was rounded */
+    rtapi_u32 accepted;                 /* the value, rounded */
+    rtapi_u32 wanted;                   /* the value as it was set */
 };
 
 struct channel {
@@ -81,7 +83,8 @@ struct channel {
     rtapi_u64 accum;                    /* atomic; written by [base] only */
     rtapi_s32 addval;                   /* step rate per pass; [base], and [servo] while disabled */
     rtapi_s32 target_addval, deltalim;  /* atomic; written by [servo] */
-    rtapi_u32 step_timer, hold_timer, setup_timer;
+    rtapi_u64 step_timer, hold_timer, setup_timer;  /* ns, from the last step */
+    rtapi_u64 dir_timer;                /* ns, from the last change of dir (type 0) */
     int held, direction, state;
     hal_bool_t enable;
     hal_sint_t rawcounts;
@@ -105,7 +108,7 @@ static double freq_scale, accel_scale;  /* steps/s to addval, steps/s^2 to delta
 
 /* ---- [base] -------------------------------------------------------------- */
 
-static rtapi_u32 count_down(rtapi_u32 timer, rtapi_u32 period)
+static rtapi_u64 count_down(rtapi_u64 timer, rtapi_u32 period)
 {
     return timer > period ? timer - period : 0;
 }
@@ -140,9 +143,18 @@ static void write_outputs(struct channel *c)
     }
 }
 
+/* Type 0: true while the direction output has not been (or will not be) stable for
+ * dirsetup, so that no step may come. Times too short for any drive, as the default
+ * of 1 ns, mean that it may come together with the direction. */
+static int direction_unsettled(const struct channel *c)
+{
+    int turns = c->hold_timer == 0 && c->addval != 0 && (c->addval > 0) != (c->direction >= 0);
+    return c->dirsetup.wanted >= SETUP_MATTERS_NS && (c->dir_timer != 0 || turns);
+}
+
 static void make_channel_pulses(struct channel *c, rtapi_u32 period)
 {
-    int step = 0, enabled = hal_get_bool(c->enable);
+    int step = 0, before = c->direction, enabled = hal_get_bool(c->enable);
     c->step_timer = count_down(c->step_timer, period);
     c->hold_timer = count_down(c->hold_timer, period);
     if(c->setup_timer) {
@@ -153,10 +165,16 @@ static void make_channel_pulses(struct channel *c, rtapi_u32 period)
     if(!c->held && enabled) {
         rtapi_u64 next = c->accum + (rtapi_u64)(rtapi_s64)c->addval;
         step = ((c->accum ^ next) >> PICKOFF) & 1;
+        if(step && c->type == 0 && direction_unsettled(c)) {
+            step = 0;
+            next = c->accum;
+        }
         __atomic_store_n(&c->accum, next, __ATOMIC_RELAXED);
         hal_set_si32(c->rawcounts, (rtapi_s32)(rtapi_u32)(next >> PICKOFF));
     }
+    if(c->dir_timer) c->dir_timer = count_down(c->dir_timer, period);
     if(c->hold_timer == 0 && c->addval != 0) c->direction = c->addval > 0 ? 1 : -1;
+    if(c->type == 0 && (c->direction < 0) != (before < 0)) c->dir_timer = hal_get_ui32(c->dirsetup.ns);
     if(step) {
         c->step_timer = hal_get_ui32(c->steplen.ns);
         c->hold_timer = c->step_timer + hal_get_ui32(c->dirdelay.ns);
@@ -232,6 +250,7 @@ static rtapi_u32 accept_timing(struct timing *t, rtapi_u32 least, rtapi_u32 peri
 {
     rtapi_u32 ns = hal_get_ui32(t->ns);
     if(again || ns != t->accepted) {
+        if(ns != t->accepted) t->wanted = ns;
         if(ns < least) ns = least;
         t->accepted = round_up(ns, period);
         hal_set_ui32(t->ns, t->accepted);

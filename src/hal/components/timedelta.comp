@@ -10,20 +10,22 @@ pin out signed out "Time since the last call.";
 pin out signed err "Sum of the deviations.";
 pin out float avg_err "Mean deviation.";
 variable rtapi_s64 last;
+variable rtapi_s64 total;
 variable int first = 1;
 function _ "Measures.";
 see_also "latencybins(9)";
 license "GPL";
 author "Kerf developers";
 ;;
-static int calls;                       /* of all instances */
+static rtapi_s64 calls;                       /* of all instances */
 
 FUNCTION(_) {
     rtapi_s64 now = rtapi_get_time();
     if(last != 0) {
         rtapi_s32 delta = (rtapi_s32)(now - last);
         out = delta;
-        err = (rtapi_s32)((rtapi_u32)err + (rtapi_u32)delta - (rtapi_u32)period);
+        total += delta - period;
+        err = (rtapi_s32)total;
         if(first) {
             first = 0;
             min_ = delta;
@@ -41,7 +43,7 @@ FUNCTION(_) {
         current_jitter = current_error < 0 ? -current_error : current_error;
     }
     calls++;
-    avg_err = (double)err / calls;
+    avg_err = (double)total / (double)calls;
     if(reset) {
         first = 1;
         last = 0;
