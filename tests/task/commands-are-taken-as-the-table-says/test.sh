@@ -9,5 +9,5 @@ cp "$machine/logger.hal" "$machine/tool.tbl" ./*.ngc "$out"
 printf '#!/bin/sh\nexec "%s/objects/test/task-command_table" > table\n' "$EMC2_HOME" > "$out/display"; chmod +x "$out/display"
 sed 's|^DISPLAY = .*|DISPLAY = ./display|' "$machine/mill.ini" > "$out/mill.ini"
 cd "$out" || exit 1
-linuxcnc -r mill.ini > log 2>&1 < /dev/null || tail -n 30 log
+linuxcnc -r mill.ini > log 2>&1 < /dev/null || cat log
 cat table

@@ -6,5 +6,5 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 cp mill.ini logger.hal tool.tbl record "$out"
 cd "$out" || exit 1
-PROGRAMS=$here/recorded linuxcnc -r mill.ini > log 2>&1 < /dev/null || tail -n 30 log
+PROGRAMS=$here/recorded linuxcnc -r mill.ini > log 2>&1 < /dev/null || cat log
 "$here/compare" "$here/recorded" .
