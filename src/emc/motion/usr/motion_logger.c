@@ -311,6 +311,7 @@ static void init_segment(void)
     s->vel = 1.0;
     s->acc = 10.0;
     s->feed_scale = s->rapid_scale = s->net_feed_scale = 1.0;
+    s->enables_new = s->enables_queued = SS_ENABLED | FS_ENABLED | FH_ENABLED;
     s->scurve_peak_scale = 1.0;
     s->carte_pos_cmd_ok = s->carte_pos_fb_ok = 1;
     for (int n = 0; n < EMCMOT_MAX_SPINDLES; n++) {
@@ -347,7 +348,6 @@ static int look(void)
         s->commandEcho = c.command;
         s->commandStatus = EMCMOT_COMMAND_OK;
         pretend(&c);
-        s->heartbeat++;
         emcmotBlockEnd(&s->head, &s->tail);
         __atomic_store_n(&s->commandNumEcho, c.commandNum, __ATOMIC_RELEASE);
     }
@@ -397,6 +397,9 @@ int main(int argc, char **argv)
     init_segment();
     hal_ready(id);
     while (!quit) {
+        emcmotBlockBegin(&shared->status.head); /* task waits for a first beat, and for one after each move */
+        shared->status.heartbeat++;
+        emcmotBlockEnd(&shared->status.head, &shared->status.tail);
         reopen_when_asked();
         idle = look() ? 0 : idle + 1;
         kerf_clock_sleep_ns(idle < BUSY_LOOKS ? BUSY_NS : IDLE_NS);
