@@ -12,3 +12,5 @@ void Canon::print_line(const char *text)
     fputc('\n', stdout);
     fflush(stdout);
 }
+
+void Canon::operator_error(const char *text) { fprintf(stderr, "%s\n", text); }

@@ -216,6 +216,8 @@ class Canon
     virtual void FINISH() {}   ///< flush what is held back
     virtual void ON_RESET() {} ///< drop what is held back
 
+    /// A message to the operator at once, not in queue order.
+    virtual void operator_error(const char *text);
     /// A (PRINT,...) line, without newline, at interpretation time.
     virtual void print_line(const char *text);
 

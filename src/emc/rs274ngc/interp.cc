@@ -239,6 +239,39 @@ int Interp::init(const InterpOptions &options)
     return INTERP_OK;
 }
 
+int ngc::run_inner(Setup &s, const char *text)
+{
+    // What is being executed now stays as it is; the line may call subs, which run to their end.
+    const Block outer = s.block;
+    char raw[sizeof s.raw], canonical[sizeof s.text];
+    memcpy(raw, s.raw, sizeof raw);
+    memcpy(canonical, s.text, sizeof canonical);
+    const int raw_length = s.raw_length, number = s.sequence_number, level = s.call_level;
+    const int64_t line_offset = s.line_offset, after_offset = s.after_offset;
+    std::string skipping;
+    std::swap(skipping, s.skipping);
+    int status = take_line(s, text);
+    if (status == INTERP_OK) status = read_block(s);
+    if (status == INTERP_OK) status = execute_block(s);
+    while (status == INTERP_OK && (s.call_level > level || !s.skipping.empty()) && s.source >= 0) {
+        status = read_next_block(s);
+        if (status == INTERP_OK) status = execute_block(s);
+    }
+    if (status > INTERP_MIN_ERROR)
+        while (s.call_level > level) leave_frame(s);
+    if (s.call_level == level) {
+        s.block = outer;
+        memcpy(s.raw, raw, sizeof raw);
+        memcpy(s.text, canonical, sizeof canonical);
+        s.raw_length = raw_length;
+        s.sequence_number = number;
+        s.line_offset = line_offset;
+        s.after_offset = after_offset;
+        std::swap(skipping, s.skipping);
+    }
+    return status;
+}
+
 int Interp::synch()
 {
     Setup &s = *this->s;
@@ -307,7 +340,6 @@ void close_files(Setup &s)
 int failed(Setup &s, int status)
 {
     unwind(s);
-    forget_remaps(s);
     clear_labels(s);
     drop_comp(s);
     return status;
@@ -441,6 +473,16 @@ int next_line(Setup &s, bool *have)
     return INTERP_OK;
 }
 
+// A Python handler waits to go on; what it called has ended.
+bool handler_waits(const Setup &s) { return s.python && s.python->waiting_level() == s.call_level; }
+
+int resume_handler(Setup &s)
+{
+    bool oword = false;
+    const int status = s.python->resume(s, &oword);
+    return oword ? finish_python_sub(s, status) : continue_remap(s, status);
+}
+
 } // namespace
 
 int ngc::read_next_block(Setup &s)
@@ -458,13 +500,13 @@ int Interp::read()
 {
     Setup &s = *this->s;
     s.fault.fix.clear();
-    if (__builtin_expect(s.source < 0, 0)) {
+    if (__builtin_expect(s.source < 0 && !handler_waits(s), 0)) {
         s.error = "File not open";
         return INTERP_FILE_NOT_OPEN;
     }
     int status = INTERP_OK;
     if (__builtin_expect(s.probe_flag || s.toolchange_flag || s.input_flag, 0)) status = take_results(s);
-    if (status == INTERP_OK) status = read_next_block(s);
+    if (status == INTERP_OK && !handler_waits(s)) status = read_next_block(s);
     if (__builtin_expect(status > INTERP_MIN_ERROR, 0)) {
         s.trace(__func__);
         return failed(s, status);
@@ -498,7 +540,7 @@ int Interp::read(const char *line)
 int Interp::execute()
 {
     Setup &s = *this->s;
-    const int status = execute_block(s);
+    const int status = __builtin_expect(handler_waits(s), 0) ? resume_handler(s) : execute_block(s);
     if (__builtin_expect(status > INTERP_MIN_ERROR, 0)) {
         s.trace(__func__);
         return failed(s, status);
@@ -523,7 +565,8 @@ int Interp::execute(const char *line)
         status = read(line);
         if (status == INTERP_OK) status = execute();
     }
-    while (status == INTERP_OK && (s.call_level > 0 || !s.skipping.empty()) && s.source >= 0) {
+    while (status == INTERP_OK && (s.call_level > 0 || !s.skipping.empty()) &&
+           (s.source >= 0 || handler_waits(s))) {
         status = read();
         if (status == INTERP_OK) status = execute();
     }

@@ -157,6 +157,7 @@ std::string last_component(const std::string &name)
 // Level of its own for a call; the caller continues behind its line.
 int enter(Setup &s, CallType type, const std::string &name)
 {
+    const bool saves = type == CALL_NGC || type == CALL_REMAP;
     CHECK(s.call_level + 1 >= MAX_CALL_LEVELS, "Too many subroutine levels");
     Frame &caller = s.frame();
     caller.source = s.source;
@@ -167,7 +168,7 @@ int enter(Setup &s, CallType type, const std::string &name)
     f.sub = name;
     f.locals.clear();
     f.modes.valid = f.modes.restore_on_return = false;
-    if (type == CALL_NGC || type == CALL_REMAP) {
+    if (saves) {
         memcpy(f.saved_arguments, s.parameters.data(), sizeof f.saved_arguments);
         for (int i = 1; i <= SUB_ARGUMENTS; ++i)
             s.parameters[size_t(i)] = i <= s.block.params ? s.block.param[i - 1] : 0;
@@ -243,6 +244,14 @@ int run_m98(Setup &s)
     }
     return go_to_sub(s, name);
 }
+
+} // namespace
+
+int enter_sub(Setup &s, CallType type, const std::string &name) { return enter(s, type, name); }
+int seek_sub(Setup &s, const std::string &name) { return go_to_sub(s, name); }
+
+namespace
+{
 
 // ---- branches --------------------------------------------------------------------
 
@@ -386,15 +395,6 @@ int run_break(Setup &s, bool leave)
 
 } // namespace
 
-int run_call(Setup &s)
-{
-    Block &b = s.block;
-    const std::string name = b.o_name;
-    if (b.python_call) return s.python->call_handler(s, "oword", name);
-    TRY(enter(s, CALL_NGC, last_component(name)));
-    return go_to_sub(s, name);
-}
-
 void leave_frame(Setup &s)
 {
     Frame &f = s.frame();
@@ -409,11 +409,33 @@ void leave_frame(Setup &s)
     --s.call_level;
     const Frame &caller = s.frame();
     go_to(s, caller.source, caller.offset, caller.line);
+    s.after_offset = caller.offset;
     s.sequence_number = caller.line;
+}
+
+// A Python sub has returned, or waits.
+int finish_python_sub(Setup &s, int status)
+{
+    if (status == INTERP_OK) leave_frame(s);
+    else if (status > INTERP_MIN_ERROR) s.trace(__func__);
+    return status;
+}
+
+int run_call(Setup &s)
+{
+    Block &b = s.block;
+    const std::string name = b.o_name;
+    if (b.python_call) {
+        TRY(enter(s, CALL_PYTHON, name));
+        return finish_python_sub(s, s.python->call_oword(s, name, b.param, b.params));
+    }
+    TRY(enter(s, CALL_NGC, last_component(name)));
+    return go_to_sub(s, name);
 }
 
 int run_return(Setup &s)
 {
+    if (s.frame().type == CALL_REMAP) return finish_remap(s);
     const SavedModes modes = s.frame().modes;
     leave_frame(s);
     if (modes.valid && modes.restore_on_return) TRY(restore_modes(s, modes));
@@ -425,7 +447,7 @@ void unwind(Setup &s)
     while (s.call_level > 0) leave_frame(s);
     stop_skipping(s);
     s.defining.clear();
-    s.remap_level = 0;
+    forget_remaps(s);
     s.frames[0].m98_offset = -1;
     s.frames[0].m98_repeats = 0;
 }

@@ -111,12 +111,28 @@ struct RemapTable {
     }
 };
 
+/// A block put aside while the handler of one of its codes runs.
+struct RemapFrame {
+    enum Stage : uint8_t { PROLOG, BODY, EPILOG, END };
+    const Remap *remap;
+    Block block;
+    Stage stage = PROLOG;
+    int call_level = 0; // of the handler
+    int sequence_number = 0;
+    char raw[256], text[264];
+    int raw_length = 0;
+    int64_t line_offset = 0;
+    std::vector<std::pair<char, double>> words; // for Python handlers
+};
+
 /// The remap that takes this phase of s.block; nullptr: the built-in code runs.
 const Remap *remap_of_phase(Setup &s, int phase);
 /// Begins a handler; s.block is put aside until it has returned.
 [[nodiscard]] int start_remap(Setup &s, const Remap &remap);
 /// After the return from a remap's frame: takes the block up again.
 [[nodiscard]] int finish_remap(Setup &s);
+/// Goes on with the stages after a Python handler has ended. status: how it ended.
+[[nodiscard]] int continue_remap(Setup &s, int status);
 /// Drops blocks put aside.
 void forget_remaps(Setup &s);
 

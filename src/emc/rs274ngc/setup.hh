@@ -119,8 +119,7 @@ struct Block {
     double param[SUB_ARGUMENTS];
     bool python_call = false;
 
-    // Remapped codes on this line; a remapped block is resumed phase by phase.
-    uint32_t remapped = 0; // by Phase
+    // A block with remapped codes is put aside and taken up again phase by phase.
     const Remap *executing = nullptr;
     int phase = 0;
     bool builtin_used = false;
@@ -190,6 +189,7 @@ struct CompQueue;
 struct Nurbs;      // nurbs.cc
 struct PythonLink; // python_link.hh
 struct RemapTable; // remap.hh
+struct RemapFrame;
 
 } // namespace ngc
 
@@ -333,7 +333,8 @@ struct Setup {
     // ---- remaps ----
     std::unique_ptr<ngc::RemapTable> remaps;
     std::unique_ptr<ngc::PythonLink> python;
-    int remap_level = 0;
+    std::vector<ngc::RemapFrame> remap_frames; // blocks put aside, outermost first
+    int remap_level = 0;                       // how many
 
     bool g7x_reading = false; // inside a contour: A C U W are no axes
     bool g7x_words_allowed(char c) const { return g7x_reading && (c == 'a' || c == 'c' || c == 'u' || c == 'w'); }

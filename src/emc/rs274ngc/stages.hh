@@ -28,6 +28,8 @@ void fill_fault_place(Setup &s);
 
 // ---- interp.cc: the next line of the program -> block (empty when it is skipped) ---------
 [[nodiscard]] int read_next_block(Setup &s);
+/// Executes a line in the middle of a block, with all that it calls (for Python's self.execute()).
+[[nodiscard]] int run_inner(Setup &s, const char *text);
 
 // ---- words.cc: text -> block -----------------------------------------------------------
 [[nodiscard]] int read_block(Setup &s);
@@ -47,6 +49,12 @@ bool at_fanuc_word(const Setup &s);
 [[nodiscard]] int execute_oword(Setup &s);
 [[nodiscard]] int run_call(Setup &s);
 [[nodiscard]] int run_return(Setup &s);
+/// A call level of its own, its arguments from s.block; the caller goes on behind its line.
+[[nodiscard]] int enter_sub(Setup &s, CallType type, const std::string &name);
+/// The next line read will be (on the way to) that sub.
+[[nodiscard]] int seek_sub(Setup &s, const std::string &name);
+void leave_frame(Setup &s);
+[[nodiscard]] int finish_python_sub(Setup &s, int status);
 void unwind(Setup &s);
 void clear_labels(Setup &s);
 

@@ -29,7 +29,6 @@ void Block::clear()
     o_type = O_NONE;
     params = 0;
     python_call = false;
-    remapped = 0;
     executing = nullptr;
     phase = 0;
     builtin_used = false;
@@ -58,7 +57,6 @@ int read_g(Setup &s, Block &b)
         CHECK(!remap, "Unknown g code used");
         group = remap->modal_group;
         CHECK(b.g_modes[group] != -1, "Two g codes used from same modal group");
-        b.remapped |= phase_bit(PHASE_MOTION);
         b.g_modes[group] = int16_t(code);
         return INTERP_OK;
     }
@@ -88,7 +86,6 @@ int read_m(Setup &s, Block &b)
     if (remap && remappable_m(value)) {
         group = remap->modal_group;
         CHECK(b.m_modes[group] != -1, "Two m codes used from same modal group");
-        b.remapped |= phase_bit(phase_of_m_group(group));
     } else {
         CHECK(value > 199, "M-code greater than 199: M%d", value);
         CHECK(group < 0 || (group == MM_USER && !s.canon.USER_DEFINED_FUNCTION_EXISTS(value - 100)),
