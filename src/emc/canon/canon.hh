@@ -216,6 +216,8 @@ class Canon
     virtual void FINISH() {}   ///< flush what is held back
     virtual void ON_RESET() {} ///< drop what is held back
 
+    /// Other code is about to write to standard output.
+    virtual void flush_output() {}
     /// A message to the operator at once, not in queue order.
     virtual void operator_error(const char *text);
     /// A (PRINT,...) line, without newline, at interpretation time.

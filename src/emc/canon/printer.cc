@@ -114,6 +114,7 @@ struct CanonPrinter::Line {
     {
         *p++ = '\n';
         printer.used = size_t(p - printer.buffer.data());
+        if (printer.direct) printer.flush();
     }
 };
 
@@ -191,6 +192,7 @@ void CanonPrinter::print_line(const char *text)
     memcpy(p, text, n);
     p[n] = '\n';
     used += n + 1;
+    if (direct) flush();
 }
 
 // ---- state ------------------------------------------------------------------------
@@ -341,6 +343,7 @@ void CanonPrinter::NURBS_G6_FEED(int, const std::vector<NURBS_G6_CONTROL_POINT> 
     p = put_integer(p, points.size());
     p = put_text(p, ", ...)\n");
     used += size_t(p - start);
+    if (direct) flush();
     if (points.empty()) return;
     position.tran.x = points.back().x;
     position.tran.y = points.back().y;

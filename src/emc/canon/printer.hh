@@ -112,6 +112,16 @@ class CanonPrinter : public Canon
     void FINISH() override { call("FINISH()"); }
     void ON_RESET() override { call("ON_RESET()"); }
     void print_line(const char *text) override;
+    void flush_output() override
+    {
+        direct = true; // from now on its lines and ours alternate
+        flush();
+    }
+    void operator_error(const char *text) override
+    {
+        flush();
+        Canon::operator_error(text);
+    }
 
     double GET_EXTERNAL_FEED_RATE() override { return feed_rate; }
     bool GET_EXTERNAL_FLOOD() override { return flood; }
@@ -150,6 +160,7 @@ class CanonPrinter : public Canon
     const char *line_text = nullptr; // stays at its address, its text changes
     std::vector<char> buffer;
     size_t used = 0;
+    bool direct = false; // every line at once
     long number = 0; // of the last line printed
 
     // the machine
