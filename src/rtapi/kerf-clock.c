@@ -18,13 +18,14 @@ static const char usage[] =
     "       kerf-clock sleep SECONDS\n"
     "       kerf-clock run COMMAND...  COMMAND and what it starts run in one place: time stands\n"
     "                                  except while one of them sleeps by the clock\n"
-    "       kerf-clock spawn COMMAND...  starts COMMAND in the background in a place of its own,\n"
-    "                                  prints its process id\n"
+    "       kerf-clock reserve NAME    prints a place for a command in the background:\n"
+    "                                    place=$(kerf-clock reserve NAME)\n"
+    "                                    KERF_CLOCK_SLOT=$place COMMAND... &\n"
     "       kerf-clock wait PID        until that process is gone\n"
     "       kerf-clock status          the clock and its participants\n";
 
 /* Starts command with KERF_CLOCK_SLOT=place (unset when empty). */
-static pid_t start(char **command, const char *place, int background)
+static pid_t start(char **command, const char *place)
 {
     fflush(stdout);
     pid_t pid = fork();
@@ -35,9 +36,6 @@ static pid_t start(char **command, const char *place, int background)
         setenv(KERF_CLOCK_SLOT_ENV, place, 1);
     } else {
         unsetenv(KERF_CLOCK_SLOT_ENV);
-    }
-    if (background) {
-        setpgid(0, 0);
     }
     execvp(command[0], command);
     fprintf(stderr, "kerf-clock: %s: %s\n", command[0], strerror(errno));
@@ -50,7 +48,7 @@ static int run(char **command)
     int status = 0;
     kerf_clock_join(command[0], KERF_CLOCK_PRIO_TEST);
     kerf_clock_lend(place, sizeof place);
-    pid_t pid = start(command, place, 0);
+    pid_t pid = start(command, place);
     if (pid < 0) {
         perror("kerf-clock: fork");
         return 1;
@@ -60,22 +58,17 @@ static int run(char **command)
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-static int spawn(char **command)
+/* The place is kept for the shell that asked, until a child of it claims it. */
+static int reserve(const char *name)
 {
     char place[KERF_CLOCK_SLOT_LEN];
-    kerf_clock_join("kerf-clock spawn", KERF_CLOCK_PRIO_TEST);
-    if (kerf_clock_reserve(place, sizeof place, command[0], KERF_CLOCK_PRIO_USER) < 0) {
+    kerf_clock_join("kerf-clock reserve", KERF_CLOCK_PRIO_TEST);
+    if (kerf_clock_reserve(place, sizeof place, name, KERF_CLOCK_PRIO_USER) < 0) {
         fprintf(stderr, "kerf-clock: too many participants\n");
         return 1;
     }
-    pid_t pid = start(command, place, 1);
-    if (pid < 0) {
-        perror("kerf-clock: fork");
-        kerf_clock_unreserve(place);
-        return 1;
-    }
-    kerf_clock_reserved_for(place, pid);
-    printf("%d\n", (int)pid);
+    kerf_clock_reserved_for(place, getppid());
+    printf("%s\n", place);
     return 0;
 }
 
@@ -108,6 +101,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "kerf-clock: %s is not a time in seconds\n", argv[2]);
             return 1;
         }
+        kerf_clock_join("kerf-clock sleep", KERF_CLOCK_PRIO_USER); /* time stands until we are gone */
         kerf_clock_sleep_ns((int64_t)(seconds * 1e9 + 0.5));
     } else if (argc == 3 && !strcmp(what, "wait")) {
         int pid = (int)strtol(argv[2], &end, 10);
@@ -119,8 +113,8 @@ int main(int argc, char **argv)
         kerf_clock_wait(gone, &pid, 1000000, -1);
     } else if (argc >= 3 && !strcmp(what, "run")) {
         return run(argv + 2);
-    } else if (argc >= 3 && !strcmp(what, "spawn")) {
-        return spawn(argv + 2);
+    } else if (argc == 3 && !strcmp(what, "reserve")) {
+        return reserve(argv[2]);
     } else {
         fputs(usage, argc == 2 && !strcmp(what, "-h") ? stdout : stderr);
         return argc == 2 && !strcmp(what, "-h") ? 0 : 1;

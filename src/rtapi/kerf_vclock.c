@@ -74,8 +74,8 @@ struct vclock {
     uint64_t last_number;
     int64_t anchor_now_ns, anchor_wall_ns; /* the pace counts from here */
     double pace;
-    int used;                   /* places 0..used-1 have ever been used */
-    int holding;                /* places that hold time */
+    _Atomic int used;           /* places 0..used-1 have ever been used */
+    _Atomic int holding;        /* places that hold time */
     struct place places[MAX_PLACES];
 };
 
@@ -385,8 +385,10 @@ static void look_around(struct look *seen, struct place *self)
  * the pace need short ones. The values may be stale: then a look comes early. */
 static int64_t look_after_ns(const struct place *p)
 {
-    if (clk->holding == 0 && clk->pace > 0) {
+    if (clk->pace > 0 && clk->holding == 0) {
+        lock();
         int64_t left_ns = due_wall_ns(p->wake_ns) - wall();
+        unlock();
         return left_ns < 1000 ? 1000 : left_ns < LOOK_NS ? left_ns : LOOK_NS;
     }
     bool running = false, soon = false;

@@ -232,8 +232,11 @@ static void wait_for_end(int fd)
     }
 }
 
-/* Status 2: the daemon is there but does not answer within limit_s (0: no limit). */
-static int client(int fd, int argc, char **argv, int limit_s)
+#define NO_ANSWER 2  /* status: the daemon is there but does not answer within the limit */
+#define NO_DAEMON -1 /* it ended before it answered (only told for `start`) */
+
+/* limit_s: how long to wait for the answer, 0 = as long as it takes. */
+static int client(int fd, int argc, char **argv, int limit_s, bool start)
 {
     int32_t result;
     struct timeval limit = {limit_s, 0};
@@ -244,7 +247,12 @@ static int client(int fd, int argc, char **argv, int limit_s)
     }
     struct pollfd answer = {fd, POLLIN, 0};
     if (limit_s > 0 && poll(&answer, 1, limit_s * 1000) == 0) {
-        return 2;
+        return NO_ANSWER;
+    }
+    char byte;
+    if (start && recv(fd, &byte, 1, MSG_PEEK) <= 0) {
+        close(fd);
+        return NO_DAEMON;
     }
     if (!recv_reply(fd, &result)) {
         fprintf(stderr, "rtapi_app: failed to read from master\n");
@@ -476,7 +484,7 @@ static int stop_and_clean(void)
         struct ucred peer = {0};
         socklen_t size = sizeof peer;
         getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size);
-        if (client(fd, 1, words, EXIT_LIMIT_MS / 1000) == 2) {
+        if (client(fd, 1, words, EXIT_LIMIT_MS / 1000, false) == NO_ANSWER) {
             fprintf(stderr, "ERROR: rtapi_app failed to die: killing process %d\n", (int)peer.pid);
             kill(peer.pid, SIGKILL);
             wait_for_end(fd);
@@ -495,19 +503,11 @@ static int64_t wall_ms(void)
     return t.tv_sec * 1000LL + t.tv_nsec / 1000000;
 }
 
-int main(int argc, char **argv)
+/* One command as a client, after becoming the parent of a daemon if there is none.
+ * Exit status or NO_DAEMON. */
+static int run(int words, char **word)
 {
-    int words = argc - 1;
-    char **word = argv + 1;
     bool start = words == 1 && strcmp(word[0], "start") == 0;
-    refuse_links();
-    if (words == 1 && strcmp(word[0], "check_rt") == 0) {
-        return check_rt();
-    }
-    address_init();
-    if (words == 1 && strcmp(word[0], "stop-and-clean") == 0) {
-        return stop_and_clean();
-    }
     int fd = try_connect();
     if (fd < 0 && words == 1 && strcmp(word[0], "ping") == 0) {
         return 1;
@@ -552,5 +552,24 @@ int main(int argc, char **argv)
         }
     }
     bool ping = words == 1 && strcmp(word[0], "ping") == 0;
-    return client(fd, words, word, ping && !start ? PING_LIMIT_S : 0);
+    return client(fd, words, word, ping && !start ? PING_LIMIT_S : 0, start);
+}
+
+int main(int argc, char **argv)
+{
+    refuse_links();
+    if (argc == 2 && strcmp(argv[1], "check_rt") == 0) {
+        return check_rt();
+    }
+    address_init();
+    if (argc == 2 && strcmp(argv[1], "stop-and-clean") == 0) {
+        return stop_and_clean();
+    }
+    /* A daemon that is just being killed may still take the connection of `start`. */
+    for (int tries = 0;; tries++) {
+        int status = run(argc - 1, argv + 1);
+        if (status != NO_DAEMON || tries >= 100) {
+            return status & 0xff;
+        }
+    }
 }

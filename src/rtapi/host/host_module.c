@@ -85,7 +85,7 @@ static int store(const char *word, char type, void *address, int i, const char *
         return 0;
     }
     default:
-        say("%s: Invalid type character `%c'\n", word, type);
+        say("%.*s: Invalid type character `%c'\n", (int)strcspn(word, "="), word, type);
         return -1;
     }
 }
@@ -207,7 +207,7 @@ int host_load(int argc, char **argv)
     }
     m->older = newest;
     newest = m;
-    return result;
+    return 0;
 }
 
 static void end_module(struct module *m)

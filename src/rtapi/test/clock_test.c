@@ -157,6 +157,7 @@ static int killed(bool running)
     kerf_clock_sleep_ns(50 * MS);
     if (!running) {
         kill(pid, SIGKILL);
+        usleep(50000); /* wall time: it is gone before time goes on */
         say("parent", "killed the one who waits");
     }
     end_all();
