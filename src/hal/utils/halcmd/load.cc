@@ -328,6 +328,55 @@ std::string component_of(const std::string &program)
     return dot == base.npos ? base : base.substr(0, dot);
 }
 
+/// The file that execvp would run, "" if there is none.
+std::string program_file(const std::string &program)
+{
+    if (program.find('/') != program.npos) return program;
+    std::string path = getenv("PATH") ? getenv("PATH") : "/usr/bin:/bin", dir;
+    for (char c : path + ":") {
+        if (c != ':') {
+            dir += c;
+            continue;
+        }
+        std::string file = (dir.empty() ? "." : dir) + "/" + program;
+        if (access(file.c_str(), X_OK) == 0) return file;
+        dir.clear();
+    }
+    return "";
+}
+
+/// Whether a program started in the background is likely to take part in virtual time: it or
+/// a script among its arguments names HAL or our packages. A place kept for one that does not
+/// would hold time for nothing.
+bool knows_clock(const Args &words)
+{
+    static const char *const marks[] = {"liblinuxcnchal", "linuxcnc", "kerf", "import hal", "hal."};
+    for (size_t i = 0; i < words.size(); i++) {
+        FILE *file = fopen((i ? words[i] : program_file(words[i])).c_str(), "re");
+        if (!file) continue;
+        std::string text(1 << 20, '\0');
+        text.resize(fread(text.data(), 1, text.size(), file));
+        fclose(file);
+        for (const char *mark : marks)
+            if (text.find(mark) != text.npos) return true;
+    }
+    return false;
+}
+
+/// `loadusr -w sleep N` in virtual time waits on the clock: the program sleep knows only the
+/// wall's. False if it is not that.
+bool sleep_in_virtual_time(const UserFlags &flags)
+{
+    const Args &words = flags.words;
+    if (!kerf_clock_is_virtual() || !flags.wait_end || flags.wait_ready || words.size() != 2) return false;
+    if (words[0] != "sleep") return false;
+    char *end;
+    double seconds = strtod(words[1].c_str(), &end);
+    if (end == words[1].c_str() || !(seconds >= 0) || seconds > 1e6 || (*end && (*end != 's' || end[1]))) return false;
+    kerf_clock_sleep_ns(static_cast<int64_t>(seconds * 1e9));
+    return true;
+}
+
 int judge_end(Session &s, const UserFlags &flags, int status)
 {
     const char *program = flags.words[0].c_str();
@@ -356,8 +405,12 @@ int do_loadusr(Session &s, const Args &args)
         s.error(strf("component '%s' exists already, %s was not started", flags.name.c_str(), program.c_str()));
         return -EEXIST;
     }
+    if (sleep_in_virtual_time(flags)) return judge_end(s, flags, 0);
+    Clock clock = Clock::Ours;
+    if (flags.wait_ready || (kerf_clock_is_virtual() && knows_clock(flags.words))) clock = Clock::Reserved;
+    if (flags.wait_end && !flags.wait_ready) clock = Clock::Lent;
     s.detach();
-    pid_t pid = start_program(s, flags.words, flags.wait_end && !flags.wait_ready ? Clock::Lent : Clock::Reserved);
+    pid_t pid = start_program(s, flags.words, clock);
     s.attach();
     if (pid < 0) return -1;
     if (flags.wait_ready) {

@@ -31,7 +31,7 @@ static Session *running; ///< for signal handlers
 
 static void on_signal(int)
 {
-    if (running->busy) {
+    if (running->busy && !running->stop) { // a second signal does not wait for the command
         running->stop = 1;
         return;
     }

@@ -7,6 +7,7 @@
  */
 #include "rtapi_client.hh"
 
+#include "kerf_clock.h"
 #include "kerf_instance.h"
 
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <time.h>
@@ -59,6 +61,33 @@ class Socket
         }
         return true;
     }
+};
+
+/// Virtual time while the realtime process works for us. It stands while a module is loaded,
+/// so that what comes after happens at a repeatable moment; but a module that itself waits
+/// would never be done, so from HOLD_MS of wall time on it goes. To unload, realtime tasks
+/// must come to their ends: it goes at once.
+class Patience
+{
+  public:
+    Patience(int fd, const std::vector<std::string> &args)
+    {
+        pollfd answer = {fd, POLLIN, 0};
+        const bool hold = !args.empty() && args[0] != "unload";
+        if (!kerf_clock_joined() || (hold && poll(&answer, 1, HOLD_MS) != 0)) return;
+        kerf_clock_suspend();
+        suspended = true;
+    }
+    ~Patience()
+    {
+        if (suspended) kerf_clock_resume();
+    }
+    Patience(const Patience &) = delete;
+    Patience &operator=(const Patience &) = delete;
+
+  private:
+    static constexpr int HOLD_MS = 2000;
+    bool suspended = false;
 };
 
 } // namespace
@@ -119,6 +148,7 @@ int rtapi_request(const std::vector<std::string> &args, int &result, std::string
     if (int r = connect_to(s.fd, where)) return r;
     if (!s.write_all(message)) return -EPIPE;
 
+    Patience patience(s.fd, args);
     std::string size, answer;
     if (!s.read_all(size, 2) || get16(size, 0) < 8 || !s.read_all(answer, get16(size, 0) - 2)) return -EPIPE;
     uint32_t value = 0;
