@@ -44,4 +44,4 @@ component-list: $(COMP_PAGES)
 INSTALL_HOOKS += install-component-manuals
 .PHONY: install-component-manuals
 install-component-manuals: $(T)/docs/build/man/.components
-	for s in 1 9; do install -d $(D)$(mandir)/man$$s && install -m 644 $(T)/docs/build/man/man$$s/*.$$s $(D)$(mandir)/man$$s; done
+	for s in 1 9; do install -d $(DESTDIR)$(mandir)/man$$s && install -m 644 $(T)/docs/build/man/man$$s/*.$$s $(DESTDIR)$(mandir)/man$$s; done

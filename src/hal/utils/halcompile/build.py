@@ -67,8 +67,8 @@ def build_user(c_file: str, name: str, source_dir: str, workdir: str, install: b
     with open(os.path.join(workdir, "Makefile"), "w") as f:
         print(f"include {modinc()}", file=f)
         print(f".PHONY: {name}\n{name}:", file=f)
-        print(f"\t$(CC) -I{_quoted(os.path.abspath(source_dir))} -I$(EMC2_HOME)/include "
-              "-I/usr/include/linuxcnc -URTAPI -U__MODULE__ -DULAPI -DUSPACE -O2 "
+        print(f"\t$(CC) -I{_quoted(os.path.abspath(source_dir))} $(MODINC_INCLUDE) "
+              "-URTAPI -U__MODULE__ -DULAPI -DUSPACE -O2 "
               f"{compile_args} -o $@ {_quoted(c_file)} -Wl,-rpath,$(LIBDIR) -L$(LIBDIR) -llinuxcnchal "
               f"{link_args} -lm", file=f)
     _make(workdir, "-s" if "s" in os.environ.get("MAKEFLAGS", "").split(" ")[0] else "--", name)

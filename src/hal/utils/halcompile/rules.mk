@@ -8,11 +8,11 @@ $(eval $(call script,halcompile,$(HALCOMPILE_DIR)/halcompile))
 EXTRA_TARGETS += src/Makefile.modinc
 src/Makefile.modinc: src/Makefile.modinc.in Makefile.inc
 	$(call say,GEN,$@)
-	$(Q)sed 's|@RTLIBDIR@||' $< > $@
+	$(Q)sed 's|@RTLIBDIR@|$(moduledir)|' $< > $@
 
 INSTALL_HOOKS += install-halcompile
 .PHONY: install-halcompile
 install-halcompile:
-	install -d $(D)$(prefix)/lib/python3/dist-packages/halcompile $(D)$(datarootdir)/linuxcnc
-	install -m 644 $(HALCOMPILE_SOURCES) $(D)$(prefix)/lib/python3/dist-packages/halcompile
-	sed 's|@RTLIBDIR@|$(moduledir)|' src/Makefile.modinc.in > $(D)$(datarootdir)/linuxcnc/Makefile.modinc
+	install -d $(DESTDIR)$(prefix)/lib/python3/dist-packages/halcompile $(DESTDIR)$(prefix)/lib/linuxcnc
+	install -m 644 $(HALCOMPILE_SOURCES) $(DESTDIR)$(prefix)/lib/python3/dist-packages/halcompile
+	install -m 755 scripts/export-map $(DESTDIR)$(prefix)/lib/linuxcnc/export-map
