@@ -8,7 +8,7 @@ try() { # name, sed expression on mill.ini
     echo "# $1"
     linuxcnc -r -D true machine/mill.ini > out.txt 2>&1 < /dev/null
     echo "status $?"
-    grep -h -i -E "$3" out.txt | sed "s|$PWD/||g" | head -n 2
+    grep -h -i -E "$3" out.txt | sed "s|$PWD/||g; s|$top/||g" | head -n 2
 }
 try "missing realtime module" 's/^EMCMOT = motmod/EMCMOT = nomod/' 'nomod' 
 try "missing HAL file" 's/^HALFILE = spindle.hal/HALFILE = nowhere.hal/' 'nowhere'
