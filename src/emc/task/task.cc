@@ -236,6 +236,7 @@ void Task::cycle() {
     watch_enable();
     watch_estop();
     watch_errors();
+    recover();
     watch_program_error();
     publish();
 }
@@ -257,7 +258,6 @@ void Task::update_motion() {
         operator_message(m); // motion printed it already
     }
     stat_.motion.debug = static_cast<int>(debug_);
-    stat_.motion.traj.single_stepping = stepping_;
     canon_->offsets_applied = motion_.external_offsets_applied();
     canon_->offsets = motion_.external_offsets();
 }
@@ -303,12 +303,14 @@ void Task::watch_errors() {
         snprintf(text, sizeof text, io_error_.c_str(), stat_.io.reason);
         operator_error(text);
     }
+    execute_error_ = true; // the command under way has failed, also for who looks later
     abort_task();
     io_.abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
     all_spindles_off();
     abort_mdi();
     clear_program();
     on_abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
+    synch_later();
 }
 
 // A program that ended by an error has done all it was told before the error. Its spindles
@@ -417,12 +419,24 @@ void Task::abort_task() {
     t.command[0] = 0;
     t.callLevel = 0;
     stepping_ = step_given_ = false;
-    wait_ = false;
     start_line_ = 0;
     error_stop_due_ = false;
-    list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+    synch_later();
     interp_->close();
     interp_->reset();
+}
+
+// When the machine has come to rest the interpreter learns where it is; nothing is read or
+// executed before.
+void Task::synch_later() {
+    list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+    wait_ = true;
+}
+
+// What a new start, RESUME and a task error do; an abort keeps the flag in the status.
+void Task::stop_stepping() {
+    stepping_ = step_given_ = false;
+    stat_.motion.traj.single_stepping = false;
 }
 
 void Task::abort_mdi() {
@@ -430,7 +444,6 @@ void Task::abort_mdi() {
     if (!mdi_queue_.empty()) rcs_print("mdi_execute_abort: dropping %zu queued MDI commands\n", mdi_queue_.size());
     mdi_queue_.clear();
     mdi_continue_ = mdi_active_ = false;
-    wait_ = false;
     stat_.task.interpState = EMC_TASK_INTERP_IDLE;
 }
 

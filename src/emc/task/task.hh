@@ -92,7 +92,9 @@ private:
     void all_spindles_off();
     void on_abort(int reason, const char *text = "");
     void clear_program();
+    void stop_stepping();
     void synch();
+    void synch_later();
 
     // ---- messages to the operator; printed too ----
     int operator_message(NMLmsg &m);

@@ -87,11 +87,7 @@ int Task::postcondition(const NMLmsg &m) const {
 
 void Task::execute() {
     EMC_TASK_STAT &t = stat_.task;
-    if (t.execState == EMC_TASK_EXEC_ERROR) {
-        recover();
-        return;
-    }
-    if (step_holds()) return;
+    if (t.execState == EMC_TASK_EXEC_ERROR || step_holds()) return;
     switch (t.execState) {
     case EMC_TASK_EXEC_DONE:
         if (stat_.motion.traj.queueFull || t.interpState == EMC_TASK_INTERP_PAUSED) return;
@@ -225,15 +221,19 @@ void Task::wait_orient() {
     eager_ = true;
 }
 
+// Ends what failed before the cycle ends: a client that sees the error may send its next
+// command at once.
 void Task::recover() {
+    if (stat_.task.execState != EMC_TASK_EXEC_ERROR) return;
     abort_task();
     io_.abort(EMC_ABORT_TASK_EXEC_ERROR);
     all_spindles_off();
     abort_mdi();
     clear_program();
+    stop_stepping();
     on_abort(EMC_ABORT_TASK_EXEC_ERROR);
     stat_.task.currentLine = 0;
-    list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+    synch_later();
     execute_error_ = true;
 }
 

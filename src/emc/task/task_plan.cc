@@ -178,8 +178,9 @@ int Task::set_mode(int mode) {
         abort_task();
         abort_mdi();
         t.currentLine = 0;
+        stop_stepping();
         clear_program();
-        list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+        synch_later();
     }
     if (stat_.motion.jogging_active) {
         rcs_print("Ignoring task mode change while jogging\n");
@@ -346,7 +347,7 @@ int Task::plan_run(int line) {
         operator_error((program_ + " was changed after it was opened: open it again to run what it says now").c_str());
         return -1;
     }
-    stepping_ = step_given_ = false;
+    stop_stepping();
     error_stop_due_ = false;
     if (!interp_->file_open()) {
         int r = interp_->open(program_.c_str());
@@ -375,15 +376,13 @@ int Task::plan_step() {
         t.task_paused = 1;
         return 0;
     case EMC_TASK_INTERP_PAUSED:
-        stepping_ = true;
-        step_given_ = true;
+        stepping_ = step_given_ = stat_.motion.traj.single_stepping = true;
         if (stat_.motion.traj.paused && stat_.motion.traj.queue > 0) motion_.send(EMCMOT_STEP);
         else t.interpState = remembered_interp_;
         t.task_paused = 1;
         return 0;
     default:
-        stepping_ = true;
-        step_given_ = true;
+        stepping_ = step_given_ = stat_.motion.traj.single_stepping = true;
         return 0;
     }
 }
@@ -401,7 +400,7 @@ int Task::plan_resume() {
     int r = motion_.send(EMCMOT_RESUME);
     stat_.task.interpState = remembered_interp_;
     stat_.task.task_paused = 0;
-    stepping_ = step_given_ = false;
+    stop_stepping();
     return r;
 }
 
@@ -490,7 +489,7 @@ void Task::finish_program() {
     if (!idle() || stat_.motion.traj.queue > 0 || stat_.io.status != RCS_DONE) return;
     if (interp_->file_open()) {
         if (plan_close() != 0) plan_error_ = true;
-        list_.append(EMC_TASK_PLAN_SYNCH(), 0);
+        list_.append(EMC_TASK_PLAN_SYNCH(), t.currentLine);
         return;
     }
     t.interpState = EMC_TASK_INTERP_IDLE;
@@ -511,7 +510,7 @@ int Task::plan_execute(const char *text) {
         if (t.mode == EMC_TASK_MODE_MANUAL) list_.append(EMC_TASK_PLAN_SYNCH(), 0);
         return -1;
     }
-    stepping_ = step_given_ = false;
+    stop_stepping();
     if (!*text) return 0;
     if (!mdi_queue_.empty() || wait_ || mdi_continue_) {
         mdi_queue_.emplace_back(text);

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The simulated mill for tests: commands, waits and what the operator was told."""
+import subprocess
+from pathlib import Path
+
+import linuxcnc
+from kerf import clock
+from linuxcnc import *  # noqa: F401,F403
+
+clock.join("test", 900)
+s, c, e = linuxcnc.stat(), linuxcnc.command(), linuxcnc.error_channel()
+
+
+def poll():
+    s.poll()
+    return s
+
+
+def until(condition, timeout=30.0, step=0.001):
+    """Waits until condition(stat). False after timeout seconds."""
+    return clock.wait_until(lambda: condition(poll()), timeout, step)
+
+
+def need(condition, what, timeout=30.0):
+    if not until(condition, timeout):
+        raise SystemExit(f"no {what}: mode {s.task_mode} state {s.task_state} interp {s.interp_state} exec {s.exec_state} rcs {s.state} {messages()}")
+
+
+def sleep(seconds):
+    clock.sleep(seconds)
+
+
+def messages():
+    """Texts for the operator since the last call."""
+    texts = []
+    while m := e.poll():
+        texts.append(m[1])
+    return texts
+
+
+def on(home=True):
+    c.state(STATE_ESTOP_RESET)
+    need(lambda s: s.task_state == STATE_ESTOP_RESET, "estop reset")
+    c.state(STATE_ON)
+    need(lambda s: s.task_state == STATE_ON, "machine on")
+    if home:
+        c.teleop_enable(0)
+        c.wait_complete()
+        c.home(-1)
+        need(lambda s: all(s.homed[:s.joints]), "homing")
+
+
+def mode(m):
+    c.mode(m)
+    need(lambda s: s.task_mode == m, f"mode {m}")
+
+
+def mdi(line, timeout=60.0):
+    """Runs a line; the result of wait_complete."""
+    if poll().task_mode != MODE_MDI:
+        mode(MODE_MDI)
+    c.mdi(line)
+    return c.wait_complete(timeout)
+
+
+def program(text, name="test.ngc"):
+    """Writes and opens a program, in auto mode."""
+    Path(name).write_text(text)
+    if poll().task_mode != MODE_AUTO:
+        mode(MODE_AUTO)
+    c.program_open(str(Path(name).resolve()))
+    c.wait_complete()
+
+
+def run(text, timeout=120.0, name="test.ngc"):
+    """Runs a program to its end; the result of wait_complete."""
+    program(text, name)
+    c.auto(AUTO_RUN, 0)
+    return c.wait_complete(timeout)
+
+
+def idle(timeout=60.0):
+    need(lambda s: s.interp_state == INTERP_IDLE and s.inpos and s.queue == 0, "idle machine", timeout)
+
+
+def halcmd(*words):
+    return clock.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, text=True).stdout.strip()
+
+
+def getp(pin):
+    return halcmd("getp", pin)
+
+
+def setp(pin, value):
+    halcmd("setp", pin, str(value))
+
+
+def xyz(digits=4):
+    poll()
+    return tuple(round(v, digits) + 0.0 for v in s.position[:3])

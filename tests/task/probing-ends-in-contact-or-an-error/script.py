@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+from mill import *
+
+on()
+mdi("F600")
+c.mdi("G38.2 X50")
+sleep(1)
+setp("motion.probe-input", 1)
+print(c.wait_complete(), poll().probe_tripped, round(s.probed_position[0], 3), xyz(3)[0] < 10.2, messages())
+setp("motion.probe-input", 0)
+print(mdi("(debug,#5061 #5070)"), messages())
+before = xyz(2)[0]
+print(mdi("G38.2 X12"), messages(), xyz(2), poll().probe_tripped)
+print(mdi("G38.3 X13"), messages(), mdi("(debug,#5070)"), messages(), xyz(2))
+setp("motion.probe-input", 1)
+print(mdi("G38.2 X20"), messages(), xyz(2))
+c.mdi("G38.4 X20")
+sleep(0.3)
+setp("motion.probe-input", 0)
+print(c.wait_complete(), poll().probe_tripped, messages())
+setp("motion.probe-input", 0)
+mode(MODE_MDI)
+c.mdi("G1 X30 F600")
+sleep(0.3)
+setp("motion.probe-input", 1)
+print(c.wait_complete(), messages())
