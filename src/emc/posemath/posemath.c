@@ -232,7 +232,7 @@ int pmMatQuatConvert(PmRotationMatrix const *m, PmQuaternion *q)
 int pmQuatRotConvert(PmQuaternion const *q, PmRotationVector *r)
 {
     double n = sqrt(q->x * q->x + q->y * q->y + q->z * q->z);
-    if (n < Q_FUZZ) {
+    if (n < 1e-150) { /* below it the direction underflows */
         r->s = 0.0;
         r->x = 1.0;
         r->y = r->z = 0.0;
