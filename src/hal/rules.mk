@@ -16,3 +16,16 @@ $(eval $(call program,halsampler,src/hal/stream/halsampler.c $(HALSTREAM_MAIN),l
 $(eval $(call program,halstreamer,src/hal/stream/halstreamer.c $(HALSTREAM_MAIN),linuxcnchal))
 
 $(eval $(call pymodule,_hal,$(addprefix src/hal/python/,_hal.cc component.cc query.cc stream.cc values.cc),linuxcnchal))
+
+# Test program of tests/hal: the library, compiled so that a process can be made to die
+# before any store (src/hal/test/stores.h), and what looks into its database.
+HAL_ROBUST := $(addprefix src/hal/test/,hal_robust.c hal_check.c) $(HAL_SOURCES) src/hal/hal_query.c
+HAL_ROBUST_OBJECTS := $(call objs,stores,$(HAL_ROBUST)) $(call objs,ul,src/hal/test/stores.c $(RTAPI_ULAPI_SOURCES))
+$(O)/stores/%.o: %.c | headers
+	$(call say,CC,$< (stores))
+	$(Q)mkdir -p $(@D) && $(CC) -std=gnu11 $(CFLAGS) -fsanitize=thread $(WARN) -Wno-tsan $(DEFINES) $(INCLUDES) -MMD -MP $(ULFLAGS) -c -o $@ $<
+$(O)/test/hal-robust: $(HAL_ROBUST_OBJECTS)
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CC) $(SAN) $(LDFLAGS) -Wl,--wrap=memset,--wrap=memcpy,--wrap=strcpy -o $@ $^ -lpthread
+DEPS += $(HAL_ROBUST_OBJECTS:.o=.d)
+EXTRA_TARGETS += $(O)/test/hal-robust
