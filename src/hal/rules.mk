@@ -29,3 +29,11 @@ $(O)/test/hal-robust: $(HAL_ROBUST_OBJECTS)
 	$(Q)mkdir -p $(@D) && $(CC) $(SAN) $(LDFLAGS) -Wl,--wrap=memset,--wrap=memcpy,--wrap=strcpy -o $@ $^ -lpthread
 DEPS += $(HAL_ROBUST_OBJECTS:.o=.d)
 EXTRA_TARGETS += $(O)/test/hal-robust
+
+# Test program of tests/hal, through the library as anybody uses it.
+HAL_API_OBJECTS := $(call objs,ul,src/hal/test/hal_api.c)
+$(O)/test/hal-api: $(HAL_API_OBJECTS) $(T)/lib/liblinuxcnchal.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CC) $(SAN) $(LDFLAGS) -o $@ $(HAL_API_OBJECTS) -L$(T)/lib -llinuxcnchal -lpthread -Wl,-rpath,'$$ORIGIN/../../lib'
+DEPS += $(HAL_API_OBJECTS:.o=.d)
+EXTRA_TARGETS += $(O)/test/hal-api
