@@ -6,6 +6,8 @@
  *                                  of each changing call
  *   hal-robust kills N SEED        kills N processes at random moments
  *   hal-robust together P N SEED   P processes make N changes each at once
+ *   hal-robust threads P N SEED    the same while threads run functions of a module that
+ *                                  the test in tests/hal brings
  *   hal-robust hang                frees the lock of a stopped process
  *   hal-robust reap                components of a dead process
  *
@@ -308,6 +310,81 @@ static void run_together(int processes, long changes, unsigned seed)
     printf("%s: %d processes made changes at once\n", failures ? "bad" : "good", processes);
 }
 
+/* ---- Under running threads --------------------------------------------------------------------------- */
+
+enum { FUNCTS = 16 };
+
+static bool halves_differ(const char *sig)
+{
+    hal_query_t q = {.name = sig};
+    return hal_get_s(&q, NULL, NULL) == 0 && (int32_t)(q.sig.value.s >> 32) != (int32_t)q.sig.value.s;
+}
+
+static void thread_change(unsigned *seed)
+{
+    char funct[32], pin[48], sig[32];
+    unsigned i = next_random(seed) % FUNCTS;
+    const char *thread = next_random(seed) % 2 ? "fast" : "slow";
+    snprintf(funct, sizeof funct, "stress.%u", i);
+    snprintf(pin, sizeof pin, "stress.%u.%s", i, next_random(seed) % 2 ? "out" : "in");
+    snprintf(sig, sizeof sig, "sig%u", next_random(seed) % 8);
+    switch (next_random(seed) % 10) {
+    case 0:
+    case 1: hal_add_funct_to_thread(funct, thread, next_random(seed) % 2 ? 1 : -1); break;
+    case 2:
+    case 3: hal_del_funct_from_thread(funct, thread); break;
+    case 4: hal_signal_new(sig, HAL_S64); break;
+    case 5: hal_signal_delete(sig); break;
+    case 6:
+    case 7: hal_link(pin, sig); break;
+    case 8: hal_unlink(pin); break;
+    case 9: CHECK(!halves_differ(sig), "signal '%s' is torn", sig); break;
+    }
+}
+
+static int count_users(hal_query_t *q, void *arg)
+{
+    (void)arg;
+    CHECK(q->funct.users <= 1, "function '%s' runs %d times", q->name, q->funct.users);
+    return 0;
+}
+
+static void run_threads(int processes, long changes, unsigned seed)
+{
+    pid_t pids[16];
+    rtapi_set_msg_handler(quiet);
+    processes = processes > 16 ? 16 : processes;
+    for (int i = 0; i < processes; i++) {
+        fflush(stdout);
+        if ((pids[i] = fork()) == 0) {
+            unsigned mine = seed + (unsigned)i * 7919u;
+            for (long n = 0; n < changes; n++) {
+                thread_change(&mine);
+            }
+            _exit(failures != 0);
+        }
+    }
+    for (int i = 0; i < processes; i++) {
+        int status;
+        waitpid(pids[i], &status, 0);
+        CHECK(WIFEXITED(status) && WEXITSTATUS(status) == 0, "process %d ended with 0x%x", i, status);
+    }
+    hal_list_funct(&(hal_query_t){0}, count_users, NULL);
+    for (int i = 0; i < FUNCTS; i++) {
+        char name[48];
+        snprintf(name, sizeof name, "stress.%d.errors", i);
+        hal_query_t q = {.name = name};
+        CHECK(hal_get_p(&q, NULL, NULL) == 0 && q.pp.value.s == 0, "%s: %lld", name, (long long)q.pp.value.s);
+    }
+    CHECK(hal_check() == 0, "the database is damaged");
+    for (int i = 0; i < 8; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "sig%d", i);
+        hal_signal_delete(name);
+    }
+    printf("%s: %d processes made changes under running threads\n", failures ? "bad" : "good", processes);
+}
+
 /* ---- A process that hangs -------------------------------------------------------------------------- */
 
 static int hang_here(hal_query_t *q, void *arg)
@@ -415,12 +492,14 @@ int main(int argc, char **argv)
         run_kills(argc > 2 ? atoi(argv[2]) : 200, argc > 3 ? (unsigned)atol(argv[3]) : 1);
     } else if (strcmp(what, "together") == 0) {
         run_together(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000, argc > 4 ? (unsigned)atol(argv[4]) : 1);
+    } else if (strcmp(what, "threads") == 0) {
+        run_threads(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000, argc > 4 ? (unsigned)atol(argv[4]) : 1);
     } else if (strcmp(what, "hang") == 0) {
         run_hang();
     } else if (strcmp(what, "reap") == 0) {
         run_reap();
     } else {
-        fprintf(stderr, "hal-robust stores|kills|together|hang|reap ...\n");
+        fprintf(stderr, "hal-robust stores|kills|together|threads|hang|reap ...\n");
         failures++;
     }
     hal_lib_exit();
