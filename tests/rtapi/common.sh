@@ -21,7 +21,7 @@ small_tree() {
     cp "$top/rtlib/hal_lib.so" "$tree/rtlib"
     chmod -R a+rX "$tree"
     for module in "$@"; do
-        "${CC:-gcc}" -O1 -std=gnu11 -fPIC -shared -DRTAPI -DUSPACE -I"$top/include" -o "$tree/rtlib/$module.so" \
+        ${CC:-gcc} -O1 -std=gnu11 -fPIC -shared -DRTAPI -DUSPACE -I"$top/include" -o "$tree/rtlib/$module.so" \
             "../modules/$module.c" || exit 1
     done
     app=$tree/bin/rtapi_app
