@@ -126,12 +126,12 @@ int apply(Setup &s, Operator op, double *left, double right)
 {
     switch (op) {
     case OP_POWER:
-        CHECK(*left < 0 && floor(right) != right, "Attempt to raise negative to non integer power");
+        CHECK(*left < 0 && floor(right) != right && !s.syntax_only, "Attempt to raise negative to non integer power");
         *left = pow(*left, right);
         break;
     case OP_TIMES: *left *= right; break;
     case OP_DIVIDE:
-        CHECK(right == 0, "Attempt to divide by zero");
+        CHECK(right == 0 && !s.syntax_only, "Attempt to divide by zero");
         *left /= right;
         break;
     case OP_MOD:
@@ -240,11 +240,11 @@ int read_function(Setup &s, double *value)
     switch (f) {
     case F_ABS: x = fabs(x); break;
     case F_ACOS:
-        CHECK(x < -1 || x > 1, "Argument to acos out of range");
+        CHECK((x < -1 || x > 1) && !s.syntax_only, "Argument to acos out of range");
         x = degrees(acos(x));
         break;
     case F_ASIN:
-        CHECK(x < -1 || x > 1, "Argument to asin out of range");
+        CHECK((x < -1 || x > 1) && !s.syntax_only, "Argument to asin out of range");
         x = degrees(asin(x));
         break;
     case F_COS: x = cos(radians(x)); break;
@@ -252,13 +252,13 @@ int read_function(Setup &s, double *value)
     case F_FIX: x = floor(x); break;
     case F_FUP: x = ceil(x); break;
     case F_LN:
-        CHECK(x <= 0, "Zero or negative argument to ln");
+        CHECK((x <= 0) && !s.syntax_only, "Zero or negative argument to ln");
         x = log(x);
         break;
     case F_ROUND: x = round(x); break;
     case F_SIN: x = sin(radians(x)); break;
     case F_SQRT:
-        CHECK(x < 0, "Negative argument to sqrt");
+        CHECK((x < 0) && !s.syntax_only, "Negative argument to sqrt");
         x = sqrt(x);
         break;
     case F_TAN: x = tan(radians(x)); break;
@@ -280,7 +280,7 @@ int read_parameter(Setup &s, double *value)
         if (named_value(s, name, value, &failed)) return INTERP_OK;
         s.word_start = start;
         if (failed) return INTERP_ERROR;
-        if (!s.defining.empty()) { // inside a definition nothing is defined yet
+        if (!s.defining.empty() || s.syntax_only) { // inside a definition nothing is defined yet
             *value = 0;
             return INTERP_OK;
         }
@@ -289,6 +289,10 @@ int read_parameter(Setup &s, double *value)
     int index;
     TRY(read_integer(s, &index));
     s.word_start = start;
+    if (s.syntax_only) { // any number may be meant
+        *value = 1;
+        return INTERP_OK;
+    }
     return parameter_value(s, index, value);
 }
 
@@ -301,7 +305,7 @@ int to_integer(Setup &s, double value, int *result)
     if (above > 1 - TOLERANCE_INT)
         below = ceil(value);
     else
-        CHECK(above > TOLERANCE_INT, "Non integer value for integer");
+        CHECK(above > TOLERANCE_INT && !s.syntax_only, "Non integer value for integer");
     // Beyond the range of int every use of the value is out of range, too.
     *result = below > 2147483647.0 ? 2147483647 : below < -2147483648.0 ? -2147483647 - 1 : int(below);
     return INTERP_OK;
@@ -383,6 +387,10 @@ int read_real(Setup &s, double *value)
         }
     }
     if (__builtin_expect(!std::isfinite(*value), 0)) {
+        if (s.syntax_only) {
+            *value = 1;
+            return INTERP_OK;
+        }
         s.word_start = start;
         FAIL("Calculation resulted in '%s'", std::isnan(*value) ? "not a number" : "infinity");
     }

@@ -37,6 +37,7 @@ int Setup::fail(const char *where, const char *format, ...)
     va_end(args);
     text[254] = 0;
     error = text;
+    fault.fix.clear();
     stack_size = 0;
     trace(where);
     fault.what = text;
@@ -364,8 +365,10 @@ int Interp::open(const char *filename)
     close_files(s);
     auto file = std::make_unique<LineSource>();
     if (!file->open(filename)) {
-        s.fault.fix = strerror(errno);
-        FAIL("Unable to open file <%s>", filename);
+        const char *why = strerror(errno);
+        const int status = s.fail(__func__, "Unable to open file <%s>", filename);
+        s.fault.fix = why;
+        return status;
     }
     s.sources.push_back(std::move(file));
     s.source = 0;
@@ -431,8 +434,17 @@ int take_results(Setup &s)
 int end_of_file(Setup &s)
 {
     const std::string file = s.sources[size_t(s.source)]->path();
-    CHECK(!s.skipping.empty(), "EOF in file:%s seeking o-word: o<%s> from line: %d", file.c_str(),
-          s.skipping.c_str(), s.skipping_line);
+    if (!s.skipping.empty()) {
+        const int status = s.fail(__func__, "EOF in file:%s seeking o-word: o<%s> from line: %d", file.c_str(),
+                                  s.skipping.c_str(), s.skipping_line);
+        s.fault.line = s.skipping_line; // where the search began
+        s.fault.column = 0;
+        s.fault.text.clear();
+        s.fault.fix = s.skipping_to_sub ? "define the sub in this file, or put it into " + s.skipping +
+                                              ".ngc in the program's folder or [RS274NGC]SUBROUTINE_PATH"
+                                        : "the line that ends this block is missing";
+        return status;
+    }
     CHECK(s.percent_flag && s.source == 0, "File ended with no percent sign (%%)");
     FAIL("File ended with no percent sign (%%) or program end (M2)");
 }
@@ -441,6 +453,7 @@ int end_of_file(Setup &s)
 int next_line(Setup &s, bool *have)
 {
     *have = false;
+    s.block.phase = 0;
     LineSource &file = *s.sources[size_t(s.source)];
     std::string_view line;
     bool newline;
@@ -499,7 +512,6 @@ int ngc::read_next_block(Setup &s)
 int Interp::read()
 {
     Setup &s = *this->s;
-    s.fault.fix.clear();
     if (__builtin_expect(s.source < 0 && !handler_waits(s), 0)) {
         s.error = "File not open";
         return INTERP_FILE_NOT_OPEN;
@@ -517,7 +529,6 @@ int Interp::read()
 int Interp::read(const char *line)
 {
     Setup &s = *this->s;
-    s.fault.fix.clear();
     int status = take_results(s);
     if (status == INTERP_OK) {
         status = take_line(s, line);

@@ -457,6 +457,7 @@ void clear_labels(Setup &s) { s.labels.clear(); }
 int execute_oword(Setup &s)
 {
     const Block &b = s.block;
+    s.word_start = s.text[0] == '/' ? 1 : 0;
     if (b.o_type == O_SUB || b.o_type == O_PROGRAM) {
         CHECK(b.o_type == O_PROGRAM && s.disable_fanuc_subs && s.skipping.empty(),
               "DISABLE_FANUC_STYLE_SUB disabled in INI file, but found bare O-word");

@@ -22,6 +22,7 @@
 #include <readline/readline.h>
 #endif
 
+#include "check_program.hh"
 #include "inifile.hh"
 #include "interp.hh"
 #include "printer.hh"
@@ -36,6 +37,7 @@ struct Options {
     std::string tool_file, var_file = "/etc/emc2/sample-configs/sim/sim.var", ini_file, plugin;
     int on_error = STOP;
     bool block_delete = false, print_stack = false, go = false, task = false;
+    bool check = false, json = false, var_given = false;
     int log_level = -1;
     std::string input, output;
     bool have_input = false, have_output = false;
@@ -66,7 +68,9 @@ void usage(const char *name)
             "    -g: Toggle the 'go (batch mode)' flag (default: OFF)\n"
             "    -i: specify the .ini file (default: no ini file)\n"
             "    -T: call task_init()\n"
-            "    -l: specify the log_level (default: -1)\n",
+            "    -l: specify the log_level (default: -1)\n"
+            "    --check: report every error and suspicious line of the program\n"
+            "    --json: with --check: as JSON\n",
             name);
 }
 
@@ -248,18 +252,55 @@ int main_menu(Session &s)
 
 // ---- start -------------------------------------------------------------------------
 
+// rs274 --check [--json] [-i ini] [-t tools] [-v parameters] program: 0 when there is no error.
+int check(const Options &o)
+{
+    CheckOptions c;
+    c.interp.ini_file = o.ini_file;
+    c.interp.task = o.task;
+    c.tool_file = o.tool_file;
+    if (o.var_given) c.parameter_file = o.var_file;
+    if (!o.have_input) {
+        fprintf(stderr, "rs274 --check: name the program\n");
+        return 1;
+    }
+    const std::vector<Finding> findings = check_program(o.input, c);
+    int errors = 0;
+    for (const Finding &f : findings) errors += f.severity == Finding::ERROR;
+    if (o.json) {
+        fputs(findings_as_json(findings).c_str(), stdout);
+    } else {
+        for (const Finding &f : findings) {
+            Fault shown = f.fault;
+            shown.what = (f.severity == Finding::ERROR ? "error: " : "warning: ") + shown.what;
+            fputs(shown.report().c_str(), stdout);
+        }
+        printf("%s: %d error%s, %d warning%s\n", o.input.c_str(), errors, errors == 1 ? "" : "s",
+               int(findings.size()) - errors, int(findings.size()) - errors == 1 ? "" : "s");
+    }
+    return errors ? 1 : 0;
+}
+
 // False: usage has been printed.
 bool read_options(int argc, char **argv, Options &o, bool *tool_given)
 {
+    static const struct option longer[] = {{"check", no_argument, nullptr, 1000},
+                                           {"json", no_argument, nullptr, 1001},
+                                           {nullptr, 0, nullptr, 0}};
     int c;
-    while ((c = getopt(argc, argv, "p:t:v:bsn:gi:l:T")) != -1) {
+    while ((c = getopt_long(argc, argv, "p:t:v:bsn:gi:l:T", longer, nullptr)) != -1) {
         switch (c) {
+        case 1000: o.check = true; break;
+        case 1001: o.json = true; break;
         case 'p': o.plugin = optarg; break;
         case 't':
             o.tool_file = optarg;
             *tool_given = true;
             break;
-        case 'v': o.var_file = std::string(optarg).substr(0, PARAMETER_FILE_NAME_LENGTH - 1); break;
+        case 'v':
+            o.var_given = true;
+            o.var_file = std::string(optarg).substr(0, PARAMETER_FILE_NAME_LENGTH - 1);
+            break;
         case 'b': o.block_delete = !o.block_delete; break;
         case 's': o.print_stack = !o.print_stack; break;
         case 'n': o.on_error = atoi(optarg); break;
@@ -357,6 +398,7 @@ int run(int argc, char **argv)
     Session s;
     bool tools_given = false;
     if (!read_options(argc, argv, s.o, &tools_given)) return 1;
+    if (s.o.check) return check(s.o);
     make_tool_store();
     if (tools_given) tooldata_load(s.o.tool_file.c_str());
     if (!s.o.go)

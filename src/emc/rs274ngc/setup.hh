@@ -288,6 +288,7 @@ struct Setup {
     std::vector<double> parameters; // [1..5601]
     std::string parameter_file;
     bool parameter_file_bad = false; // damaged: never overwritten
+    bool parameters_read_only = false; // nothing is written (checks)
     ngc::NameTable<ngc::NamedParameter> globals;
     double return_value = 0;
     bool value_returned = false;
@@ -338,6 +339,8 @@ struct Setup {
 
     bool g7x_reading = false; // inside a contour: A C U W are no axes
     bool g7x_words_allowed(char c) const { return g7x_reading && (c == 'a' || c == 'c' || c == 'u' || c == 'w'); }
+
+    bool syntax_only = false; // nothing has run: names are not defined yet, values mean nothing
 
     // ---- error ----
     Fault fault;

@@ -50,7 +50,6 @@ int find_tool(Setup &s, int toolno, int *idx)
 {
     *idx = tool_index(s, toolno);
     if (*idx >= 0) return INTERP_OK;
-    s.fault.fix = "add the tool to the tool table, or change the number";
     FAIL("Requested tool %d not found in the tool table", toolno);
 }
 

@@ -111,7 +111,7 @@ int load_parameters(Setup &s)
 
 int save_parameters(Setup &s)
 {
-    if (s.parameter_file.empty() || s.parameter_file_bad) return INTERP_OK;
+    if (s.parameter_file.empty() || s.parameter_file_bad || s.parameters_read_only) return INTERP_OK;
     std::bitset<MAX_PARAMETER + 1> kept;
     for (int n = 1; n <= MAX_PARAMETER; ++n) kept[size_t(n)] = required(n);
     if (FILE *old = fopen(s.parameter_file.c_str(), "re")) {
