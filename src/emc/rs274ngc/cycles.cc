@@ -3,7 +3,8 @@
  * cycles.cc - drilling, boring and tapping cycles: G73 G74 G81-G89.
  *
  * Method: the axes are named by their part: aa and bb span the plane, cc is the drill
- *         axis; "down" is smaller cc.
+ *         axis; "down" is smaller cc, or greater with [RS274NGC]CYCLES_BOTH_WAYS = 1
+ *         when R is below the bottom (back counterbores, angle heads).
  * Thread: [task]
  * Source: cycles sheet, section 1
  */
@@ -48,6 +49,9 @@ struct Cycle {
     const CyclePlane &p;
     double aa, bb;
     double r, bottom, clear;
+    double down = 1; // -1: the drill goes toward greater cc
+
+    bool above(double a, double b) const { return (a - b) * down > 0; }
 
     void move(bool feed, double a, double b, double c)
     {
@@ -90,11 +94,11 @@ int peck(Cycle &c, bool chip_break)
     Setup &s = c.s;
     const double q = s.cycle_q;
     const double gap = s.block.has('d') ? s.block['d'] : chip_break ? s.peck_g73 : s.peck_g83;
-    CHECK((c.r - c.bottom) / q > MAX_PECKS, "Q word gives more than 1000000 pecks");
-    for (double depth = c.r - q; depth > c.bottom; depth -= q) {
+    CHECK(fabs(c.r - c.bottom) / q > MAX_PECKS, "Q word gives more than %d pecks", MAX_PECKS);
+    for (double depth = c.r - q * c.down; c.above(depth, c.bottom); depth -= q * c.down) {
         c.feed(depth);
         if (!chip_break) c.rapid(c.r);
-        c.rapid(depth + gap);
+        c.rapid(depth + gap * c.down);
     }
     c.feed(c.bottom);
     c.rapid(c.clear);
@@ -327,13 +331,13 @@ int convert_cycle(Setup &s, int g)
         if (b.has_axis(p.bb)) bb = b.axis_word(p.bb);
         if (b.present & POLAR_WORDS) TRY(take_polar(s, &aa, &bb));
     }
-    CHECK(r < bottom, "%s", p.r_below);
+    CHECK(r < bottom && !s.cycles_both_ways, "%s", p.r_below);
     if (!s.cycle_il_flag) {
         s.cycle_il = level;
         s.cycle_il_flag = true;
     }
-    Cycle c{s, p, axis(s.current, p.aa), axis(s.current, p.bb), r, bottom, 0};
-    if (level < r) {
+    Cycle c{s, p, axis(s.current, p.aa), axis(s.current, p.bb), r, bottom, 0, r < bottom ? -1.0 : 1.0};
+    if (c.above(r, level)) {
         c.rapid(r);
         level = r;
     }
@@ -349,12 +353,12 @@ int convert_cycle(Setup &s, int g)
         c.aa += aa_step;
         c.bb += bb_step;
         const double height = axis(s.current, p.cc);
-        if (repeat == 0 && height > r) {
+        if (repeat == 0 && c.above(height, r)) {
             c.rapid(height);
             c.rapid(r);
         } else {
             c.rapid(c.clear);
-            if (c.clear > r) c.rapid(r);
+            if (c.above(c.clear, r)) c.rapid(r);
         }
         TRY(run_body(c, g));
     }

@@ -107,6 +107,7 @@ int read_ini(Setup &s)
     s.oword_warn_only = ini.findBoolV("OWORD_WARNONLY", R, false);
     s.disable_g92_persistence = ini.findBoolV("DISABLE_G92_PERSISTENCE", R, false);
     s.disable_auto_g54 = ini.findBoolV("DISABLE_AUTO_G54", R, false);
+    s.cycles_both_ways = ini.findBoolV("CYCLES_BOTH_WAYS", R, false);
     s.disable_fanuc_subs = ini.findBoolV("DISABLE_FANUC_STYLE_SUB", R, false);
     s.g64_default_tolerance = ini.findRealV("G64_DEFAULT_TOLERANCE", R, 0);
     s.g64_default_naive = ini.findRealV("G64_DEFAULT_NAIVETOLERANCE", R, 0);
@@ -364,7 +365,7 @@ int Interp::open(const char *filename)
     unwind(s);
     close_files(s);
     auto file = std::make_unique<LineSource>();
-    if (!file->open(filename)) {
+    if (!file->open(filename, s.options.snapshot)) {
         const char *why = strerror(errno);
         const int status = s.fail(__func__, "Unable to open file <%s>", filename);
         s.fault.fix = why;

@@ -49,6 +49,7 @@ struct Fault {
 struct InterpOptions {
     std::string ini_file; ///< empty: no INI, all defaults
     bool task = false;    ///< value of #<_task>
+    bool snapshot = false; ///< programs run as they were when opened, whatever happens on disk
     /// INI_FILE_NAME of the environment and defaults for the rest
     static InterpOptions from_environment();
 };
@@ -113,7 +114,7 @@ class Interp
     size_t line_length() const;
     int file_open() const;
     const char *file_name(char *buf, size_t size) const;
-    /// Values that the open program's file had when it was opened (FP-130).
+    /// The open program's file is no longer the one that was opened.
     bool program_changed_on_disk() const;
 
     // ---- errors ---------------------------------------------------------------

@@ -23,6 +23,8 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/types.h>
+
 #include "codes.hh"
 #include "inifile.hh"
 #include "interp.hh"
@@ -274,6 +276,7 @@ struct Setup {
     bool tool_change_at_g30 = false, tool_change_quill_up = false, tool_change_with_spindle_on = false;
     bool retain_g43 = false, oword_nargs = false, oword_warn_only = false, no_downcase_oword = false;
     bool ini_vars = true, hal_pin_vars = true;
+    bool cycles_both_ways = false; // R below the bottom drills upward
     bool disable_fanuc_subs = false, disable_g92_persistence = false, disable_auto_g54 = false;
     std::string on_abort_command;
     std::string program_prefix;
@@ -288,6 +291,9 @@ struct Setup {
     std::vector<double> parameters; // [1..5601]
     std::string parameter_file;
     bool parameter_file_bad = false; // damaged: never overwritten
+    std::string parameter_file_text; // as last written, with the file's time and inode
+    struct timespec parameter_file_time = {};
+    ino_t parameter_file_inode = 0;
     bool parameters_read_only = false; // nothing is written (checks)
     ngc::NameTable<ngc::NamedParameter> globals;
     double return_value = 0;

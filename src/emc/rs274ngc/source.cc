@@ -12,7 +12,10 @@
 #include <cerrno>
 #include <cstring>
 
+#include <cstdlib>
+
 #include <fcntl.h>
+#include <sys/sendfile.h>
 #include <unistd.h>
 
 namespace ngc
@@ -30,7 +33,32 @@ void LineSource::close()
     line_number = 0;
 }
 
-bool LineSource::open(const std::string &path)
+// Replaces the open file by a nameless copy of it.
+bool LineSource::copy_aside()
+{
+    const char *dir = getenv("TMPDIR");
+    int copy = ::open(dir && *dir ? dir : "/tmp", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (copy < 0) return true; // a file system without nameless files: the file itself is read
+    off_t left = opened.st_size;
+    while (left > 0) {
+        const ssize_t n = sendfile(copy, fd, nullptr, size_t(left));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) break;
+        left -= n;
+    }
+    if (left > 0) {
+        const int why = errno;
+        ::close(copy);
+        lseek(fd, 0, SEEK_SET);
+        errno = why;
+        return true;
+    }
+    ::close(fd);
+    fd = copy;
+    return true;
+}
+
+bool LineSource::open(const std::string &path, bool snapshot)
 {
     close();
     name = path;
@@ -44,6 +72,7 @@ bool LineSource::open(const std::string &path)
         return false;
     }
     if (!S_ISREG(opened.st_mode)) return slurp();
+    if (snapshot && !copy_aside()) return false;
     size_t wanted = WINDOW;
     wanted = std::min<size_t>(wanted, size_t(opened.st_size) + 4096);
     if (window.size() != wanted) window.assign(wanted, 0);

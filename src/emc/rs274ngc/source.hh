@@ -27,7 +27,9 @@ class LineSource
     LineSource(const LineSource &) = delete;
     LineSource &operator=(const LineSource &) = delete;
 
-    bool open(const std::string &path); ///< false: errno says why
+    /// False: errno says why. snapshot: a copy without a name is read, so that changes on
+    /// disk do not reach it.
+    bool open(const std::string &path, bool snapshot = false);
     void close();
     bool is_open() const { return fd >= 0; }
     const std::string &path() const { return name; }
@@ -44,6 +46,7 @@ class LineSource
   private:
     bool fill(size_t keep_from);
     bool slurp();
+    bool copy_aside();
 
     enum { WINDOW = 256 * 1024 };
     int fd = -1;

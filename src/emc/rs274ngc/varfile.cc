@@ -13,7 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "stages.hh"
@@ -73,6 +73,27 @@ template <class Take> int scan(FILE *f, Take take, const char **why)
     return 0;
 }
 
+// A new file, synced, takes the place of the old one, which stays as .bak.
+int write_file(Setup &s, const std::string &text)
+{
+    const std::string fresh = s.parameter_file + ".new", backup = s.parameter_file + ".bak";
+    FILE *f = fopen(fresh.c_str(), "we");
+    CHECK(!f, "Cannot open variable file");
+    bool good = fwrite(text.data(), 1, text.size(), f) == text.size();
+    good = fflush(f) == 0 && good;
+    good = fdatasync(fileno(f)) == 0 && good;
+    good = fclose(f) == 0 && good;
+    if (!good) {
+        unlink(fresh.c_str());
+        FAIL("Cannot open variable file");
+    }
+    unlink(backup.c_str());
+    if (link(s.parameter_file.c_str(), backup.c_str()) != 0 && errno == ENOENT)
+        perror("link (updating variable file)");
+    CHECK(rename(fresh.c_str(), s.parameter_file.c_str()) != 0, "Cannot open variable file");
+    return INTERP_OK;
+}
+
 } // namespace
 
 int load_parameters(Setup &s)
@@ -120,29 +141,27 @@ int save_parameters(Setup &s)
         fclose(old);
         CHECK(bad, "%s", why);
     }
-    const std::string fresh = s.parameter_file + ".new", backup = s.parameter_file + ".bak";
-    FILE *f = fopen(fresh.c_str(), "we");
-    CHECK(!f, "Cannot open variable file");
-    bool good = true;
+    std::string text;
     for (int n = 1; n <= MAX_PARAMETER; ++n) {
         if (!kept[size_t(n)]) continue;
-        char line[64];
-        int length = snprintf(line, sizeof line, "%d\t%f\n", n, parameter_now(s, n));
+        char line[400];
+        snprintf(line, sizeof line, "%d\t%f\n", n, parameter_now(s, n));
         for (char *c = line; *c; ++c)
             if (*c == ',') *c = '.'; // whatever the locale says
-        good = fwrite(line, 1, size_t(length), f) == size_t(length) && good;
+        text += line;
     }
-    good = fflush(f) == 0 && good;
-    good = fdatasync(fileno(f)) == 0 && good;
-    good = fclose(f) == 0 && good;
-    if (!good) {
-        unlink(fresh.c_str());
-        FAIL("Cannot open variable file");
+    // Synchs are frequent and mostly change nothing.
+    struct stat st;
+    const bool there = stat(s.parameter_file.c_str(), &st) == 0;
+    const bool untouched = there && st.st_mtim.tv_sec == s.parameter_file_time.tv_sec &&
+                           st.st_mtim.tv_nsec == s.parameter_file_time.tv_nsec && st.st_ino == s.parameter_file_inode;
+    if (untouched && text == s.parameter_file_text) return INTERP_OK;
+    TRY(write_file(s, text));
+    if (stat(s.parameter_file.c_str(), &st) == 0) {
+        s.parameter_file_time = st.st_mtim;
+        s.parameter_file_inode = st.st_ino;
+        s.parameter_file_text = std::move(text);
     }
-    unlink(backup.c_str());
-    if (link(s.parameter_file.c_str(), backup.c_str()) != 0 && errno != ENOENT) // ENOENT: the first save
-        perror(("cannot keep the previous variable file as " + backup).c_str());
-    CHECK(rename(fresh.c_str(), s.parameter_file.c_str()) != 0, "Cannot open variable file");
     return INTERP_OK;
 }
 
