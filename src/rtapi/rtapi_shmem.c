@@ -128,6 +128,15 @@ static void *attach(int shmid, unsigned long size)
     if (rtapi_shmem_policy.lock && sparse) {
         mlockall(MCL_FUTURE);
     }
+    if (mem == (void *)-1 && errno == EAGAIN && rtapi_shmem_policy.lock) {
+        rtapi_print_msg(RTAPI_MSG_ERR,
+                        "rtapi_shmem_new: the limit of locked memory (ulimit -l) is too low for %lu KiB; memory is not "
+                        "locked any more. Realtime latency may suffer.\n",
+                        size >> 10);
+        munlockall();
+        rtapi_shmem_policy.lock = false;
+        mem = shmat(shmid, NULL, 0);
+    }
     if (mem == (void *)-1) {
         return NULL;
     }
