@@ -9,6 +9,10 @@
  *   hal-robust threads P N SEED    the same while threads run functions of a module that
  *                                  the test in tests/hal brings
  *   hal-robust hang                frees the lock of a stopped process
+ *   hal-robust beat PIN            a counting s64 pin goes on while a stopped process holds
+ *                                  the lock
+ *   hal-robust check               looks at the database; prints the memory in use (KiB)
+ *                                  and the process id of the realtime host
  *   hal-robust reap                components of a dead process
  *
  * Contains the library, so that the database itself can be looked at. Exit status
@@ -420,6 +424,38 @@ static void run_hang(void)
     printf("%s: the lock of a process that hangs can be freed\n", failures ? "bad" : "good");
 }
 
+/* ---- Realtime and the lock ------------------------------------------------------------------------------ */
+
+static void run_beat(const char *pin)
+{
+    hal_query_t q = {.name = pin};
+    if (hal_getref_p(&q) < 0 || q.pp.type != HAL_S64) {
+        CHECK(0, "no s64 pin '%s'", pin);
+        return;
+    }
+    int status;
+    hal_signal_new("beat-test", HAL_BIT);
+    pid_t pid = fork();
+    if (pid == 0) {
+        hal_query_t held = {.name = "beat-test"};
+        hal_get_s(&held, hang_here, NULL);
+        _exit(0);
+    }
+    waitpid(pid, &status, WUNTRACED);
+    CHECK(WIFSTOPPED(status), "the process does not hang");
+    rtapi_s64 before = hal_get_sint(q.pp.ref.s), now = before;
+    for (int ms = 0; ms < 10000 && now < before + 100; ms++) {
+        struct timespec pause = {0, 1000000};
+        nanosleep(&pause, NULL);
+        now = hal_get_sint(q.pp.ref.s);
+    }
+    CHECK(now >= before + 100, "the thread made %lld cycles", (long long)(now - before));
+    kill(pid, SIGKILL);
+    waitpid(pid, &status, 0);
+    CHECK(hal_signal_delete("beat-test") == 0, "the lock is lost");
+    printf("%s: the thread goes on while a client holds the lock\n", failures ? "bad" : "good");
+}
+
 /* ---- What is said about the dead --------------------------------------------------------------------- */
 
 static char said[4096];
@@ -496,10 +532,17 @@ int main(int argc, char **argv)
         run_threads(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000, argc > 4 ? (unsigned)atol(argv[4]) : 1);
     } else if (strcmp(what, "hang") == 0) {
         run_hang();
+    } else if (strcmp(what, "beat") == 0) {
+        run_beat(argc > 2 ? argv[2] : "");
+    } else if (strcmp(what, "check") == 0) {
+        hal_statistics_t st;
+        hal_statistics(&st);
+        CHECK(hal_check() == 0, "the database is damaged");
+        printf("%ld %d\n", (st.mem_total - st.mem_free) >> 10, hal_data->host.pid);
     } else if (strcmp(what, "reap") == 0) {
         run_reap();
     } else {
-        fprintf(stderr, "hal-robust stores|kills|together|threads|hang|reap ...\n");
+        fprintf(stderr, "hal-robust stores|kills|together|threads|hang|beat|check|reap ...\n");
         failures++;
     }
     hal_lib_exit();
