@@ -58,6 +58,7 @@ const char *color_of(hal_type_t type, const hal_query_value_u &v)
 struct Box {
     std::string name, comp;
     std::vector<const Item *> left, right; ///< IN; OUT and I/O
+    bool bend = false; ///< no box: a place in a layer that a long line passes
     int layer = 0;
     double place = 0; ///< within its layer, while ordering
     double x = 0, y = 0, width = 0, height = 0;
@@ -66,6 +67,7 @@ struct Box {
 struct Wire {
     const SignalItem *signal;
     const Item *from, *to; ///< either may be null: the signal ends free
+    std::vector<size_t> bends; ///< boxes that are no boxes, from left to right
 };
 
 class Picture
@@ -77,6 +79,7 @@ class Picture
         for (auto &s : signals)
             if (matches(wanted, s.name.c_str())) add_signal(s, of[s.name]);
         layer();
+        bend();
         order();
         place();
     }
@@ -87,8 +90,13 @@ class Picture
                              "viewBox=\"0 0 %.0f %.0f\" font-family=\"monospace\" font-size=\"11\">\n"
                              "<rect width=\"100%%\" height=\"100%%\" fill=\"#fcfcfa\"/>\n",
                              width, height, width, height);
-        for (auto &w : wires) t += wire(w);
-        for (auto &b : boxes) t += box(b);
+        const SignalItem *labelled = nullptr; // wires of a signal stand together
+        for (auto &w : wires) {
+            t += wire(w, !w.from || w.signal != labelled);
+            labelled = w.signal;
+        }
+        for (auto &b : boxes)
+            if (!b.bend) t += box(b);
         return t + "</svg>\n";
     }
 
@@ -100,6 +108,7 @@ class Picture
     std::map<const Item *, size_t> box_of_pin;
     std::vector<Wire> wires;
     std::vector<std::vector<size_t>> layers;
+    std::map<const Wire *, double> lane; ///< y of lines that run back
     double width = 0, height = 0;
 
     void add_pin(const Item *pin)
@@ -107,7 +116,11 @@ class Picture
         size_t dot = pin->name.rfind('.');
         std::string name = dot == std::string::npos ? pin->comp : pin->name.substr(0, dot);
         auto [found, fresh] = box_of_name.try_emplace(name, boxes.size());
-        if (fresh) boxes.push_back({name, pin->comp, {}, {}, 0, 0, 0, 0, 0, 0});
+        if (fresh) {
+            boxes.emplace_back();
+            boxes.back().name = name;
+            boxes.back().comp = pin->comp;
+        }
         Box &b = boxes[found->second];
         (pin->dir == HAL_IN ? b.left : b.right).push_back(pin);
         box_of_pin[pin] = found->second;
@@ -124,10 +137,10 @@ class Picture
         bool read = false;
         for (auto *p : linked)
             if (p != from) {
-                wires.push_back({&s, from, p});
+                wires.push_back({&s, from, p, {}});
                 read = true;
             }
-        if (!read) wires.push_back({&s, from, nullptr});
+        if (!read) wires.push_back({&s, from, nullptr, {}});
     }
 
     /// Longest path from boxes without a predecessor; links found to close a loop do not count.
@@ -143,7 +156,17 @@ class Picture
             size_t box, edge;
         };
         std::vector<std::vector<size_t>> forward(boxes.size());
-        for (size_t root = 0; root < boxes.size(); root++) {
+        // Boxes with more outgoing than incoming lines come first: fewer lines run back.
+        std::vector<long> surplus(boxes.size(), 0);
+        for (size_t i = 0; i < boxes.size(); i++)
+            for (size_t to : next[i]) {
+                surplus[i]++;
+                surplus[to]--;
+            }
+        std::vector<size_t> roots(boxes.size());
+        for (size_t i = 0; i < roots.size(); i++) roots[i] = i;
+        std::stable_sort(roots.begin(), roots.end(), [&](size_t a, size_t b) { return surplus[a] > surplus[b]; });
+        for (size_t root : roots) {
             if (state[root] != NEW) continue;
             std::vector<Visit> path = {{root, 0}};
             state[root] = OPEN;
@@ -173,15 +196,36 @@ class Picture
         }
     }
 
+    /// Lines that pass a layer get a place of their own in it.
+    void bend()
+    {
+        for (auto &w : wires) {
+            if (!w.from || !w.to) continue;
+            const int last = boxes[box_of_pin.at(w.to)].layer;
+            for (int l = boxes[box_of_pin.at(w.from)].layer + 1; l < last; l++) {
+                w.bends.push_back(boxes.size());
+                layers[l].push_back(boxes.size());
+                boxes.emplace_back();
+                boxes.back().bend = true;
+                boxes.back().layer = l;
+            }
+        }
+    }
+
     void order()
     {
         std::vector<std::vector<size_t>> neighbours(boxes.size());
-        for (auto &w : wires)
-            if (w.from && w.to) {
-                size_t a = box_of_pin.at(w.from), b = box_of_pin.at(w.to);
-                neighbours[a].push_back(b);
-                neighbours[b].push_back(a);
-            }
+        for (auto &w : wires) {
+            if (!w.from || !w.to) continue;
+            size_t at = box_of_pin.at(w.from);
+            auto link = [&](size_t to) {
+                neighbours[at].push_back(to);
+                neighbours[to].push_back(at);
+                at = to;
+            };
+            for (size_t b : w.bends) link(b);
+            link(box_of_pin.at(w.to));
+        }
         auto number = [this](const std::vector<size_t> &l) {
             for (size_t i = 0; i < l.size(); i++) boxes[l[i]].place = (i + 0.5) / l.size();
         };
@@ -209,6 +253,10 @@ class Picture
 
     void size(Box &b)
     {
+        if (b.bend) {
+            b.height = 4;
+            return;
+        }
         double left = 0, right = 0;
         for (auto *p : b.left) left = std::max(left, text_width(short_name(b, p)));
         for (auto *p : b.right) right = std::max(right, text_width(short_name(b, p)));
@@ -236,6 +284,7 @@ class Picture
                     std::max(gap[boxes[box_of_pin.at(w.from)].layer + 1], need);
             else gap[boxes[box_of_pin.at(w.to)].layer] = std::max(gap[boxes[box_of_pin.at(w.to)].layer], need);
         }
+        double floor = 0;
         double x = MARGIN + (layers.empty() ? 0 : gap[0] - MIN_GAP_X / 2);
         for (size_t n = 0; n < layers.size(); n++) {
             double widest = 0, y = MARGIN + (height - heights[n]) / 2;
@@ -245,14 +294,29 @@ class Picture
                 y += boxes[i].height + GAP_Y;
                 widest = std::max(widest, boxes[i].width);
             }
-            for (size_t i : layers[n]) boxes[i].width = widest;
+            for (size_t i : layers[n]) {
+                boxes[i].width = widest;
+                floor = std::max(floor, boxes[i].y + boxes[i].height);
+            }
             x += widest + gap[n + 1];
         }
         width = x + MARGIN;
-        height += 2 * MARGIN;
+        // Lines that run back go below the boxes, one beside the other.
+        double below = floor + 10;
+        for (auto &w : wires)
+            if (runs_back(w)) {
+                lane[&w] = below;
+                below += 7;
+            }
+        height = std::max(height + 2 * MARGIN, below + MARGIN);
     }
 
-    /// Where the line of a pin meets its box. 
+    bool runs_back(const Wire &w) const
+    {
+        return w.from && w.to && boxes[box_of_pin.at(w.to)].layer <= boxes[box_of_pin.at(w.from)].layer;
+    }
+
+    /// Where the line of a pin meets its box.
     void end_of(const Item *pin, double &x, double &y) const
     {
         const Box &b = boxes[box_of_pin.at(pin)];
@@ -263,7 +327,7 @@ class Picture
         y = b.y + HEAD + ROW * (row + 0.5);
     }
 
-    std::string wire(const Wire &w) const
+    std::string wire(const Wire &w, bool with_label) const
     {
         const SignalItem &s = *w.signal;
         const char *color = color_of(s.type, s.value);
@@ -274,11 +338,27 @@ class Picture
         if (w.from && w.to) {
             end_of(w.from, x1, y1);
             end_of(w.to, x2, y2);
+            t += strf("<path d=\"M%.1f %.1f", x1, y1);
             // Inputs are entered from the left; a second I/O pin from its own (right) side.
-            double bend = std::max(60.0, std::min(200.0, (x2 - x1) / 2)), side = w.to->dir == HAL_IN ? -1 : 1;
-            t += strf("<path d=\"M%.1f %.1f C%.1f %.1f %.1f %.1f %.1f %.1f\" fill=\"none\" stroke=\"%s\" "
-                      "stroke-width=\"%s\"/>",
-                      x1, y1, x1 + bend, y1, x2 + side * bend, y2, x2, y2, color,
+            const double side = w.to->dir == HAL_IN ? -1 : 1;
+            if (runs_back(w)) {
+                const double y = lane.at(&w), out = x1 + 16, in = x2 + side * 16;
+                t += strf(" C%.1f %.1f %.1f %.1f %.1f %.1f L%.1f %.1f C%.1f %.1f %.1f %.1f %.1f %.1f", out + 24, y1,
+                          out + 24, y, out, y, in, y, in + side * 24, y, in + side * 24, y2, x2, y2);
+            } else {
+                auto curve = [&](double x, double y, double bend, double entry) {
+                    t += strf(" C%.1f %.1f %.1f %.1f %.1f %.1f", x1 + bend, y1, x + entry * bend, y, x, y);
+                    x1 = x;
+                    y1 = y;
+                };
+                for (size_t b : w.bends) {
+                    curve(boxes[b].x, boxes[b].y, (boxes[b].x - x1) / 2, -1);
+                    x1 += boxes[b].width;
+                    t += strf(" L%.1f %.1f", x1, y1);
+                }
+                curve(x2, y2, std::max(40.0, (x2 - x1) / 2), side);
+            }
+            t += strf("\" fill=\"none\" stroke=\"%s\" stroke-width=\"%s\"/>", color,
                       s.type == HAL_BIT && s.value.b ? "2.2" : "1.4");
         } else if (w.from) {
             end_of(w.from, x1, y1);
@@ -287,6 +367,7 @@ class Picture
             end_of(w.to, x1, y1);
             t += strf("<path d=\"M%.1f %.1fh%.1f\" stroke=\"%s\" stroke-dasharray=\"4 3\"/>", x1, y1, -stub, color);
         }
+        if (!with_label) return t + "</g>\n";
         if (w.from) end_of(w.from, x1, y1);
         else end_of(w.to, x1, y1);
         t += strf("<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\"%s>%s</text></g>\n", w.from ? x1 + 8 : x1 - 8, y1 - 3, color,

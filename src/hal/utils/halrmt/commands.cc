@@ -170,8 +170,11 @@ bool get_net(Context &x)
         x.c.error(strf("Signal '%s' not found", x.args[0].c_str()));
         return false;
     }
-    auto pins = list_pins();
-    for (auto *p : pins_by_signal(pins)[x.args[0]])
+    const auto pins = list_pins();
+    const auto of = pins_by_signal(pins);
+    const auto linked = of.find(x.args[0]);
+    if (linked == of.end()) return true;
+    for (auto *p : linked->second)
         x.c.say(strf("%s %s %s", x.args[0].c_str(), pin_arrow(p->dir), p->name.c_str()));
     return true;
 }
