@@ -58,8 +58,8 @@ class PinHistogram:
         self.pintype, self.input = INPUTS[pin["type"]]
         self.module = "histobins" if o.legacy else "histobinstream"
         if not hal.component_exists(self.module):
-            values = f"count={INSTANCES}" if o.legacy else "keys=" + ",".join(str(KEY + i) for i in range(INSTANCES))
-            halcmd("loadrt", self.module, values)
+            keys = [] if o.legacy else ["keys=" + ",".join(str(KEY + i) for i in range(INSTANCES))]
+            halcmd("loadrt", self.module, f"count={INSTANCES}", *keys)
             net = Netlist.running()
         self.index = self._free_index(net)
         self.prefix = f"{self.module}.{self.index}"

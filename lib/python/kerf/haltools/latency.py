@@ -57,7 +57,8 @@ class LatencyMeter:
         for number, t in enumerate(threads, 1):
             words += [f"name{number}={t.thread}", f"period{number}={t.period_ns}"]
         halcmd("loadrt", "threads", *words)
-        halcmd("loadrt", "latencybinstream", "keys=" + ",".join(str(KEY + i) for i in range(len(threads))))
+        halcmd("loadrt", "latencybinstream", f"count={len(threads)}",
+               "keys=" + ",".join(str(KEY + i) for i in range(len(threads))))
         self.component = hal.component(name)
         self.component.ready()
         self.streams = []
