@@ -66,7 +66,7 @@ def check_program(program, ini_path, env):
                             linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
                             ini=str(ini_path))
     if result.error:
-        raise RunError((result.fault["report"].rstrip() + "\n" + result.fault["fix"]).rstrip())
+        raise RunError(result.fault["report"].rstrip())
 
 
 class Machine:

@@ -88,8 +88,8 @@ int write_file(Setup &s, const std::string &text)
         FAIL("Cannot open variable file");
     }
     unlink(backup.c_str());
-    if (link(s.parameter_file.c_str(), backup.c_str()) != 0 && errno == ENOENT)
-        perror("link (updating variable file)");
+    if (link(s.parameter_file.c_str(), backup.c_str()) != 0 && errno != ENOENT) // ENOENT: the first save
+        perror(("cannot keep the previous variable file as " + backup).c_str());
     CHECK(rename(fresh.c_str(), s.parameter_file.c_str()) != 0, "Cannot open variable file");
     return INTERP_OK;
 }
