@@ -74,6 +74,14 @@ int axes_moving(const struct motion *m)
     return 0;
 }
 
+int eoffsets_moving(const struct motion *m)
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        if (m->axis[n].ext_offset_tp.curr_vel != 0.0)
+            return 1;
+    return 0;
+}
+
 /* ---- external offsets ---- */
 
 void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction)

@@ -52,7 +52,9 @@ static void tell_atspeed_wait(M *m)
 static void cmd_abort(M *m, C *c)
 {
     (void)c;
-    if (is_teleop(m)) {
+    if (m->aligning) {
+        request_free(m);
+    } else if (is_teleop(m)) {
         axes_abort(m, 0);
     } else if (is_coord(m)) {
         tell_atspeed_wait(m);

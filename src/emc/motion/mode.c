@@ -138,13 +138,8 @@ static void enter_teleop(struct motion *m)
 {
     EmcPose *pose = &m->status->carte_pos_cmd, base;
     int from_coord = is_coord(m);
-    if (!from_coord) {
-        double q[EMCMOT_MAX_JOINTS];
-        for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
-            q[j] = m->joint[j].pos_cmd;
-        kinematics_forward(m, q, pose);
+    if (!from_coord)
         position_enter_cartesian(m);
-    }
     base = *pose;
     axis_apply_eoffsets(m, &base, -1);
     axes_sync_to(m, &base);
@@ -171,6 +166,8 @@ static void enter_coord(struct motion *m)
 
 static void enter_free(struct motion *m)
 {
+    if (tpQueueDepth(&m->tp) != 0) /* queued while joints were still being aligned */
+        tpClear(&m->tp);
     position_enter_free(m);
     set_motion_flag(m, EMCMOT_MOTION_COORD_BIT, 0);
     set_motion_flag(m, EMCMOT_MOTION_TELEOP_BIT, 0);
@@ -180,16 +177,32 @@ static void enter_free(struct motion *m)
 /* At rest as the mode in effect means it. */
 static int may_change(struct motion *m)
 {
-    if (m->aligning)
-        return 0;
+    if (m->aligning) /* to free mode only: joint planners move already */
+        return !m->internal->teleoperating && !m->internal->coordinating;
     if (is_teleop(m)) {
         if (axes_moving(m)) {
             axes_abort(m, 0);
             return 0;
         }
-        return 1;
+        return position_at_rest(m) || eoffsets_moving(m);
     }
-    return is_inpos(m);
+    return is_inpos(m) && tpQueueDepth(&m->tp) == 0;
+}
+
+/* The pose of the joints, on the way out of free mode; 0 when there is none: reported, request dropped. */
+static int pose_is_known(struct motion *m)
+{
+    double q[EMCMOT_MAX_JOINTS];
+    if (is_teleop(m) || is_coord(m) || m->kin_type == KINEMATICS_INVERSE_ONLY)
+        return 1;
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        q[j] = m->joint[j].pos_cmd;
+    if (kinematics_forward(m, q, &m->status->carte_pos_cmd) >= 0)
+        return 1;
+    report_error("kinematicsForward failed: jog the joints to positions that belong together");
+    m->internal->teleoperating = m->internal->coordinating = 0;
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
+    return 0;
 }
 
 static void change_mode(struct motion *m)
@@ -200,6 +213,8 @@ static void change_mode(struct motion *m)
     int to_coord = want->coordinating && !coord;
     int to_free = !want->teleoperating && !want->coordinating && (teleop || coord);
     if ((!to_teleop && !to_coord && !to_free) || !may_change(m))
+        return;
+    if (!to_free && !pose_is_known(m))
         return;
     if (to_teleop)
         enter_teleop(m);

@@ -142,9 +142,11 @@ struct motion {
     int planner_deferral_told;
     int settle;                /* cycles since the planner finished, saturating */
     int aligning;              /* joints go to where kinematics wants them before teleop or coord */
+    double align_to[EMCMOT_MAX_JOINTS];
     int coord_moved;           /* a coordinated move was queued since homing (INVERSE_ONLY) */
     int probe_was;             /* probe input of the cycle before */
     int index_was[EMCMOT_MAX_SPINDLES]; /* request as last written to the pin */
+    double pos_was[EMCMOT_MAX_JOINTS][2];      /* pos_cmd of the last two cycles, newest first */
     double joint_acc_scale[EMCMOT_MAX_JOINTS]; /* wheel jog's fraction, else 1 */
     int joint_violated[EMCMOT_MAX_JOINTS];     /* soft limit message given */
     int eoffset_limited;
@@ -245,6 +247,7 @@ void axes_sync_to(struct motion *m, const EmcPose *pose); /* at rest there */
 void axes_abort(struct motion *m, int immediate);
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
+int eoffsets_moving(const struct motion *m);
 void axis_teleop_step(struct motion *m, EmcPose *pose);   /* -> positions with offsets */
 void axis_coord_step(struct motion *m, EmcPose *pose);    /* adds offsets within limits */
 void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction);
@@ -262,6 +265,8 @@ void refresh_jog_limits(struct motion *m, int j);
 /* position.c: fills the interpolators with the present joint commands; joints that
  * kinematics would make jump (a racked gantry) are first moved there within limits. */
 void position_enter_cartesian(struct motion *m);
+/* 1: nothing is left in the interpolators. */
+int position_at_rest(const struct motion *m);
 /* Joint planners take over the present motion and stop it. */
 void position_enter_free(struct motion *m);
 

@@ -102,12 +102,20 @@ void position_enter_cartesian(struct motion *m)
         emcmot_joint_t *jt = &m->joint[j];
         if (!isfinite(q[j]) || fabs(q[j] - jt->pos_cmd) <= ALIGN_EPSILON)
             continue;
-        simple_tp_adopt(&jt->free_tp, jt->pos_cmd, 0.0, 0.0);
-        jt->free_tp.pos_cmd = q[j];
-        jt->free_tp.max_vel = jt->vel_limit;
-        jt->free_tp.enable = 1;
         m->aligning = 1;
     }
+    for (int j = 0; m->aligning && j < kin_joints(m); j++) {
+        m->align_to[j] = isfinite(q[j]) ? q[j] : m->joint[j].pos_cmd;
+        simple_tp_adopt(&m->joint[j].free_tp, m->joint[j].pos_cmd, 0.0, 0.0);
+    }
+}
+
+int position_at_rest(const struct motion *m)
+{
+    for (int j = 0; j < kin_joints(m); j++)
+        if (!cubic_at_rest(&m->cubic[j]))
+            return 0;
+    return 1;
 }
 
 void position_enter_free(struct motion *m)
@@ -115,7 +123,9 @@ void position_enter_free(struct motion *m)
     m->aligning = 0;
     for (int j = 0; j < all_joints(m); j++) {
         emcmot_joint_t *jt = &m->joint[j];
-        simple_tp_adopt(&jt->free_tp, jt->pos_cmd, jt->vel_cmd, jt->acc_cmd);
+        /* speed and acceleration as differences: what the next position is compared with */
+        double T = m->servo_period, d1 = jt->pos_cmd - m->pos_was[j][0], d2 = m->pos_was[j][0] - m->pos_was[j][1];
+        simple_tp_adopt(&jt->free_tp, jt->pos_cmd, d1 / T, (d1 - d2) / (T * T));
         jt->free_tp.max_vel = jt->vel_limit;
         jt->kb_jjog_active = jt->wheel_jjog_active = 0;
     }
@@ -124,13 +134,18 @@ void position_enter_free(struct motion *m)
 static void align(struct motion *m)
 {
     int moving = 0;
-    for (int j = 0; j < kin_joints(m); j++)
+    for (int j = 0; j < kin_joints(m); j++) {
+        simple_tp_t *tp = &m->joint[j].free_tp;
+        tp->pos_cmd = m->align_to[j];
+        tp->max_vel = m->joint[j].vel_limit;
+        tp->enable = 1; /* whatever stopped it: only leaving the mode ends this */
         moving |= joint_step(m, j);
+    }
     set_motion_flag(m, EMCMOT_MOTION_INPOS_BIT, 0);
     if (moving)
         return;
     m->aligning = 0;
-    set_motion_flag(m, EMCMOT_MOTION_INPOS_BIT, 1);
+    set_motion_flag(m, EMCMOT_MOTION_INPOS_BIT, tpIsDone(&m->tp) && tpQueueDepth(&m->tp) == 0);
     for (int j = 0; j < kin_joints(m); j++) {
         m->joint[j].free_tp.enable = 0;
         cubic_drain(&m->cubic[j]);
@@ -277,6 +292,10 @@ static void soft_limits(struct motion *m)
 
 void phase_position(struct motion *m)
 {
+    for (int j = 0; j < all_joints(m); j++) {
+        m->pos_was[j][1] = m->pos_was[j][0];
+        m->pos_was[j][0] = m->joint[j].pos_cmd;
+    }
     switch (m->status->motion_state) {
     case EMCMOT_MOTION_FREE:
         free_position(m);

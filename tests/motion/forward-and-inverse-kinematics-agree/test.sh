@@ -35,7 +35,7 @@ one three21kins "" "ranges=-170:170,-220:40,-50:220,-110:170,-100:100,-260:260"
 one genserkins "" "ranges=-170:170,-220:40,-50:220,-110:170,10:100,-260:260,-9:9,-9:9,-9:9" perturb=10 joint_tolerance=100000000
 one genhexkins "" by=pose "ranges=-5:5,-5:5,20:40,-20:20,-20:20,-20:20" perturb=10000
 one genhexkins "setp genhexkins.screw-lead 0.2" by=pose "ranges=-5:5,-5:5,20:40,-20:20,-20:20,-20:20" perturb=10000
-one pentakins "" by=pose "ranges=-50:50,-50:50,100:400,-20:20,-20:20" perturb=50
+one pentakins "" by=pose "ranges=-50:50,-50:50,200:400,-15:15,-15:15" perturb=50
 P=xyzab_tdr_kins; one $P "setp $P.tool-offset-z 50;setp $P.z-offset 12;setp $P.x-rot-point 3;setp $P.y-rot-point -7;setp $P.z-rot-point 20" "ranges=-500:500,-500:500,-500:500,-100:100,-400:400" type=1
 for t in 1 2; do
 P=xyzacb_trsrn_kins; one xyzacb_trsrn "setp $P.tool-offset-z 50;setp $P.x-offset 3;setp $P.y-offset 5;setp $P.z-pivot 150;setp $P.y-pivot 12;setp $P.y-rot-axis 77;setp $P.z-rot-axis -90;setp $P.nut-angle 50;setp $P.pre-rot 0.3;setp $P.primary-angle 33;setp $P.secondary-angle -71" "ranges=-500:500,-500:500,-500:500,-100:100,-400:400,-90:90" type=$t

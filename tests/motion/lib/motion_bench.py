@@ -34,17 +34,20 @@ class Machine:
         for j in range(joints):
             lines.append(f"net cmd{j} joint.{j}.motor-pos-cmd => limitcheck.{j}.pos-cmd"
                          + (f" joint.{j}.motor-pos-fb" if loop else ""))
+            lines.append(f"net amp{j} joint.{j}.amp-enable-out => limitcheck.{j}.enable")
             lines.append(f"addf limitcheck.{j} servo-thread")
             if check:
                 lines += [f"setp limitcheck.{j}.max-vel {self.per(vel, j)}",
                           f"setp limitcheck.{j}.max-acc {self.per(acc, j)}",
                           f"setp limitcheck.{j}.max-jerk {self.per(jerk, j)}"]
         lines += list(hal_lines)
+        self.limits = dict(vel=vel, acc=acc, jerk=jerk, low=low, high=high)
         clock.join("motion-bench", 900)
         run_realtime("start")
         atexit.register(self.close)
         halcmd(lines)
         km.connect()
+        km.quiet(True)
         self.comp = hal.component(f"bench{os.getpid()}")
         self.comp.ready()
         halcmd(["start"])
@@ -89,6 +92,8 @@ class Machine:
             send(km.SET_AXIS_ACC_LIMIT, axis=a, acc=ac * (1 - ratio), ext_offset_acc=ac * ratio)
             send(km.SET_AXIS_LOCKING_JOINT, axis=a, joint=-1)
             send(km.SET_AXIS_JERK_LIMIT, axis=a, jerk=per(jerk, min(j, self.joints - 1)))
+
+        self.path_vel, self.path_acc, self.path_jerk = per(vel, 0), per(acc, 0), per(jerk, 0) or 1e9
 
     # ---- commands ----
 
@@ -136,6 +141,9 @@ class Machine:
 
     def sleep(self, seconds):
         clock.sleep(seconds)
+
+    def now(self):
+        return clock.now()
 
     def status(self):
         return km.status()

@@ -281,6 +281,7 @@ PYBIND11_MODULE(kerf_motion, m)
         if (usrmotInit("kerf_motion", key, timeout) != 0) throw std::runtime_error("no motion segment");
     }, py::arg("key") = DEFAULT_SHMEM_KEY, py::arg("timeout") = DEFAULT_EMCMOT_COMM_TIMEOUT);
     m.def("disconnect", [] { usrmotExit(); });
+    m.def("quiet", [](bool on) { usrmotSetQuiet(on); }, "do not print refused commands");
     m.def("send", &send);
     m.def("status", &status);
     m.def("config", &config);

@@ -8,6 +8,7 @@
  */
 #include <errno.h>
 #include <limits.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -25,7 +26,21 @@ static struct {
     emcmot_struct_t *shared;
     double timeout_s;
     int number; /* of the last command sent */
-} usr = {-1, -1, NULL, DEFAULT_EMCMOT_COMM_TIMEOUT, 0};
+    int quiet;  /* 1: failures are only returned */
+} usr = {-1, -1, NULL, DEFAULT_EMCMOT_COMM_TIMEOUT, 0, 0};
+
+static void complain(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
+static void complain(const char *fmt, ...)
+{
+    va_list ap;
+    if (usr.quiet)
+        return;
+    va_start(ap, fmt);
+    vprintf(fmt, ap);
+    va_end(ap);
+}
+
+void usrmotSetQuiet(int quiet) { usr.quiet = quiet; }
 
 int usrmotInit(const char *name, int key, double timeout_s)
 {
@@ -140,15 +155,15 @@ int usrmotWriteEmcmotCommand(emcmot_command_t *c)
 {
     int64_t timeout_ns = (int64_t)(usr.timeout_s * 1e9);
     if (c->id == INT_MIN) {
-        printf("USRMOT: ERROR: invalid motion id: %d\n", c->id);
+        complain("USRMOT: ERROR: invalid motion id: %d\n", c->id);
         return EMCMOT_COMM_INVALID_MOTION_ID;
     }
     if (!usr.shared) {
-        printf("USRMOT: ERROR: can't connect to shared memory\n");
+        complain("USRMOT: ERROR: can't connect to shared memory\n");
         return EMCMOT_COMM_ERROR_CONNECT;
     }
     if (!locked(NULL) && kerf_clock_wait(locked, NULL, poll_ns(), timeout_ns) != 0) {
-        printf("USRMOT: ERROR: command %u timeout (seq: %d)\n", (unsigned)c->command, usr.number);
+        complain("USRMOT: ERROR: command %u timeout (seq: %d)\n", (unsigned)c->command, usr.number);
         return EMCMOT_COMM_ERROR_TIMEOUT;
     }
     c->commandNum = ++usr.number;
@@ -158,13 +173,13 @@ int usrmotWriteEmcmotCommand(emcmot_command_t *c)
     while (!echoed(&usr.number)) {
         int64_t left_ns = deadline_ns - kerf_clock_now_ns();
         if (left_ns <= 0) {
-            printf("USRMOT: ERROR: command %u timeout (seq: %d)\n", (unsigned)c->command, usr.number);
+            complain("USRMOT: ERROR: command %u timeout (seq: %d)\n", (unsigned)c->command, usr.number);
             return EMCMOT_COMM_ERROR_TIMEOUT;
         }
         kerf_clock_wait(echoed, &usr.number, poll_ns(), left_ns);
     }
     if (__atomic_load_n(&usr.shared->status.commandStatus, __ATOMIC_ACQUIRE) != EMCMOT_COMMAND_OK) {
-        printf("USRMOT: ERROR: invalid command\n");
+        complain("USRMOT: ERROR: invalid command\n");
         return EMCMOT_COMM_ERROR_COMMAND;
     }
     return EMCMOT_COMM_OK;

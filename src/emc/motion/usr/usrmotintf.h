@@ -26,6 +26,8 @@ extern "C" {
  * RTAPI module name. Returns 0, or -1 when there is no segment. */
 int usrmotInit(const char *name, int key, double timeout_s);
 int usrmotExit(void);
+/* 1: failures of commands are returned but not printed. */
+void usrmotSetQuiet(int quiet);
 /* The segment, or a null pointer. For stand-ins of motmod and for tests. */
 emcmot_struct_t *usrmotSegment(void);
 
