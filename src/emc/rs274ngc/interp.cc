@@ -626,6 +626,19 @@ int Interp::on_abort(int reason, const char *message)
 
 int Interp::restore_from_tag(const state_tag_t &tag) { return restore_after_abort(*s, tag); }
 
+void Interp::get_offsets(double *values) const
+{
+    for (int i = 0; i < OFFSETS; ++i) values[i] = s->parameters[size_t(OFFSETS_FIRST + i)];
+}
+
+void Interp::restore_offsets(const double *values, const EmcPose &tool_offset)
+{
+    for (int i = 0; i < OFFSETS; ++i) s->parameters[size_t(OFFSETS_FIRST + i)] = values[i];
+    init_offsets(*s);
+    for (int i = 0; i < AXES; ++i) axis(s->tool_offset, i) = s->from_machine(i, axis(tool_offset, i));
+    s->canon.USE_TOOL_LENGTH_OFFSET(s->tool_offset);
+}
+
 // ---- asking ------------------------------------------------------------------------
 
 void Interp::active_g_codes(int *codes) const { active_g(*s, codes); }

@@ -93,6 +93,11 @@ class Interp
     int on_abort(int reason, const char *message);
     /// Brings the modal state back to that of the move that was executing.
     int restore_from_tag(const state_tag_t &tag);
+    /// Offsets as the machine has them in force, when reading was further ahead: parameters
+    /// OFFSETS_FIRST..OFFSETS_LAST and the tool offset, machine units.
+    enum { OFFSETS_FIRST = 5161, OFFSETS_LAST = 5390, OFFSETS = OFFSETS_LAST - OFFSETS_FIRST + 1 };
+    void get_offsets(double *values) const;
+    void restore_offsets(const double *values, const EmcPose &tool_offset);
 
     // ---- what is going on -----------------------------------------------------
     /// 0 line, 1 motion, 2 group 0, 3 plane, 4 comp, ...: codes times ten, -1 none

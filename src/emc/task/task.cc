@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "kerf_clock.h"
 #include "kerf_paths.h"
@@ -172,6 +173,8 @@ bool Task::start() {
         rcs_print_error("can't initialize interpreter\n");
         return false;
     }
+    interp_->get_offsets(read_offsets_.values);
+    executed_offsets_ = read_offsets_;
     user_codes_.scan(ini_, debug_);
 
     motion_.abort();
@@ -458,8 +461,25 @@ void Task::synch() {
     interp_->synch();
 }
 
+// After each line: a change of offsets takes its place among the orders.
+void Task::note_offsets() {
+    double now[Interp::OFFSETS];
+    interp_->get_offsets(now);
+    if (std::memcmp(now, read_offsets_.values, sizeof now) == 0) return;
+    std::memcpy(read_offsets_.values, now, sizeof now);
+    list_.append(read_offsets_, interp_->line());
+}
+
+// After orders were dropped: the interpreter goes back to the offsets that are in force.
+void Task::forget_offsets() {
+    if (std::memcmp(read_offsets_.values, executed_offsets_.values, sizeof read_offsets_.values) == 0) return;
+    interp_->restore_offsets(executed_offsets_.values, stat_.task.toolOffset);
+    read_offsets_ = executed_offsets_;
+}
+
 void Task::on_abort(int reason, const char *text) {
     int r = interp_->on_abort(reason, text);
+    note_offsets();
     if (r > INTERP_MIN_ERROR) operator_error(interp_->error_text(r));
 }
 

@@ -23,6 +23,14 @@
 #include "task_canon.hh"
 #include "user_codes.hh"
 
+// Order of the list: from here on these offsets (Interp::OFFSETS parameters) are in force.
+// It never leaves task.
+struct OffsetsNow : RCS_CMD_MSG {
+    static constexpr NMLTYPE NUMBER = 900001;
+    OffsetsNow() : RCS_CMD_MSG(NUMBER, sizeof(OffsetsNow)) {}
+    double values[Interp::OFFSETS];
+};
+
 class Task {
 public:
     explicit Task(std::string ini_file);
@@ -127,6 +135,9 @@ private:
     InterpList::Entry pending_;  // taken from the list, not yet issued
     bool wait_ = false;          // a queue buster: no reading until all is done
     bool synching_ = false;
+    OffsetsNow read_offsets_, executed_offsets_; // as read ahead, as in force
+    void note_offsets();
+    void forget_offsets();
     int requested_mode_ = EMC_TASK_MODE_MANUAL;
     int remembered_interp_ = EMC_TASK_INTERP_IDLE; // what PAUSE interrupted
     int start_line_ = 0;

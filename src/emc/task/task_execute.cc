@@ -76,6 +76,7 @@ const std::unordered_map<NMLTYPE, Conditions> &conditions() {
 int Task::precondition(const NMLmsg &m) const {
     if (m._type == EMC_MOTION_SET_AOUT_TYPE && !as<EMC_MOTION_SET_AOUT>(m).now) return EMC_TASK_EXEC_DONE;
     if (m._type == EMC_MOTION_SET_DOUT_TYPE && !as<EMC_MOTION_SET_DOUT>(m).now) return EMC_TASK_EXEC_DONE;
+    if (m._type == OffsetsNow::NUMBER) return EMC_TASK_EXEC_DONE;
     auto it = conditions().find(m._type);
     return it == conditions().end() ? EMC_TASK_EXEC_ERROR : it->second.before;
 }
@@ -338,6 +339,7 @@ int Task::issue(const NMLmsg &m) {
     case EMC_TOOL_SET_OFFSET_TYPE: return io_.set_offset(as<EMC_TOOL_SET_OFFSET>(m));
     case EMC_TOOL_SET_NUMBER_TYPE: return io_.set_number(as<EMC_TOOL_SET_NUMBER>(m).tool);
 
+    case OffsetsNow::NUMBER: executed_offsets_ = as<OffsetsNow>(m); return 0;
     case EMC_TASK_PLAN_PAUSE_TYPE: return plan_pause();
     case EMC_TASK_PLAN_OPTIONAL_STOP_TYPE: return canon_->optional_stop ? plan_pause() : 0;
     case EMC_TASK_PLAN_END_TYPE: return 0;

@@ -86,9 +86,16 @@ int Task::do_command(const NMLmsg &m) {
         {
             bool program = stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE;
             state_tag_t tag = stat_.motion.traj.tag;
+            EmcPose tool = stat_.task.toolOffset;
             abort_task();
             motion_.traj_abort();
-            if (program) interp_->restore_from_tag(tag);
+            canon_->spindle_is(-1, 0); // the S word of what is restored starts nothing
+            if (program) {
+                interp_->restore_offsets(executed_offsets_.values, tool);
+                interp_->restore_from_tag(tag);
+                interp_->restore_offsets(executed_offsets_.values, tool);
+                read_offsets_ = executed_offsets_;
+            }
             io_.abort(EMC_ABORT_TASK_ABORT);
             all_spindles_off();
             abort_mdi();
@@ -467,6 +474,7 @@ void Task::read_ahead() {
             return;
         }
         if (r == INTERP_OK) r = interp_->execute();
+        note_offsets();
         t.callLevel = interp_->call_level();
         if (r > INTERP_MIN_ERROR) {
             interp_failed(r, true);
@@ -534,6 +542,7 @@ int Task::mdi_result(int r) {
     EMC_TASK_STAT &t = stat_.task;
     t.callLevel = interp_->call_level();
     mdi_continue_ = false;
+    note_offsets();
     if (r > INTERP_MIN_ERROR) {
         t.interpreter_errcode = r;
         const Fault &f = interp_->fault();
