@@ -227,6 +227,8 @@ void CanonPrinter::USE_LENGTH_UNITS(CANON_UNITS fresh)
         axes(g5x)[i] *= factor;
         axes(g92)[i] *= factor;
     }
+    // The tool offset it remembers stays a bare number, as recorded of this model: a switch
+    // of units with an offset in force changes its length here (never on a machine).
     units = fresh;
 }
 

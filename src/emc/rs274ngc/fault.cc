@@ -96,17 +96,18 @@ bool place_of_phase(const Setup &s, int *start, int *end)
 
 // ---- remedy -------------------------------------------------------------------------
 
+// Edits between two words; two letters swapped count as one.
 int distance(std::string_view a, std::string_view b)
 {
-    std::vector<int> row(b.size() + 1);
+    std::vector<int> older, old, row(b.size() + 1);
     for (size_t j = 0; j <= b.size(); ++j) row[j] = int(j);
     for (size_t i = 1; i <= a.size(); ++i) {
-        int diagonal = row[0];
+        older = old;
+        old = row;
         row[0] = int(i);
         for (size_t j = 1; j <= b.size(); ++j) {
-            const int above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
+            row[j] = std::min({old[j] + 1, row[j - 1] + 1, old[j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], older[j - 2] + 1);
         }
     }
     return row[b.size()];

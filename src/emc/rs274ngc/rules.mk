@@ -7,3 +7,10 @@ $(eval $(call program,rs274,src/emc/rs274ngc/rs274_main.cc src/emc/canon/printer
 # Python inside the interpreter; loaded only when an INI asks for it.
 PYPLUGIN_SOURCES := $(wildcard src/emc/rs274ngc/pyplugin/*.cc)
 $(eval $(call library,pyplugin,0,$(PYPLUGIN_SOURCES),rs274 tooldata linuxcncini $(PYTHON_LIBS),-Isrc/emc/rs274ngc $(PYTHON_CPPFLAGS)))
+# Unit tests, run by tests/rs274/unit-tests-of-the-interpreter.
+$(call objs,ul,src/emc/rs274ngc/rs274_unit.cc): EXTRA += -Isrc/emc/rs274ngc
+DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/rs274ngc/rs274_unit.cc))
+EXTRA_TARGETS += $(O)/test/interp-unit
+$(O)/test/interp-unit: $(call objs,ul,src/emc/rs274ngc/rs274_unit.cc) $(T)/lib/librs274.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $< -L$(T)/lib -lrs274 -ltooldata -llinuxcncini -Wl,-rpath,'$$ORIGIN/../../lib'

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * rs274_unit.cc - what the interpreter promises to its C++ callers: unit tests.
+ *
+ * Prints one line for each test; exit status 1 when one fails.
+ */
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+
+#include <unistd.h>
+
+#include "check_program.hh"
+#include "interp.hh"
+#include "stages.hh"
+
+namespace
+{
+
+int failures = 0;
+
+#define EXPECT(condition) \
+    do { \
+        if (!(condition)) { \
+            printf("%s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            ++failures; \
+        } \
+    } while (0)
+
+/// A machine that does at once what it is told and keeps a list.
+class TestCanon : public Canon
+{
+  public:
+    std::vector<std::string> calls;
+    EmcPose position{};
+    std::vector<state_tag_t> tags;
+    state_tag_t tag{};
+    std::string parameters;
+    bool queue_empty = true;
+
+    void STRAIGHT_TRAVERSE(int line, const EmcPose &end) override { move("traverse", line, end); }
+    void STRAIGHT_FEED(int line, const EmcPose &end) override { move("feed", line, end); }
+    void ARC_FEED(int line, double, double, double, double, int, double, const EmcPose &end) override
+    {
+        move("arc", line, end);
+    }
+    void STRAIGHT_PROBE(int line, const EmcPose &end, unsigned char) override { move("probe", line, end); }
+    void UPDATE_TAG(const state_tag_t &t) override { tag = t; }
+    bool wants_tags() const override { return true; }
+    void MESSAGE(const char *text) override { calls.push_back(std::string("message ") + text); }
+    void SET_AUX_OUTPUT_BIT(int i) override { calls.push_back("out " + std::to_string(i)); }
+    void SET_MOTION_OUTPUT_BIT(int i) override { calls.push_back("mout " + std::to_string(i)); }
+    void FINISH() override { calls.push_back("finish"); }
+    void USE_LENGTH_UNITS(CANON_UNITS u) override { units = u; }
+    double GET_EXTERNAL_LENGTH_UNITS() override { return 1; }
+    CANON_UNITS GET_EXTERNAL_LENGTH_UNIT_TYPE() override { return units; }
+    EmcPose GET_EXTERNAL_POSITION() override { return position; }
+    bool GET_EXTERNAL_QUEUE_EMPTY() override { return queue_empty; }
+    std::string GET_EXTERNAL_PARAMETER_FILE_NAME() override { return parameters; }
+    bool USER_DEFINED_FUNCTION_EXISTS(int num) override { return num == 1; }
+
+  private:
+    CANON_UNITS units = CANON_UNITS_MM;
+    void move(const char *name, int line, const EmcPose &end)
+    {
+        position = end;
+        tags.push_back(tag);
+        char text[100];
+        snprintf(text, sizeof text, "%s %d %.3f %.3f %.3f", name, line, end.tran.x, end.tran.y, end.tran.z);
+        calls.push_back(text);
+    }
+};
+
+struct Machine {
+    TestCanon canon;
+    Interp interp{canon};
+    Machine()
+    {
+        InterpOptions none;
+        EXPECT(interp.init(none) == INTERP_OK);
+    }
+};
+
+std::string write_file(const char *name, const std::string &text)
+{
+    std::ofstream f(name);
+    f << text;
+    return name;
+}
+
+int run_to_end(Interp &interp)
+{
+    for (;;) {
+        int status = interp.read();
+        if (status == INTERP_OK) status = interp.execute();
+        if (status != INTERP_OK && status != INTERP_EXECUTE_FINISH) return status;
+    }
+}
+
+void mdi_runs_whole_subs()
+{
+    Machine m;
+    write_file("mdisub.ngc", "o<mdisub> sub\nG0 X#1\nG38.2 Z-1\nG0 X[#1+1]\no<mdisub> endsub [7]\n");
+    EXPECT(m.interp.execute("F100") == INTERP_OK);
+    int status = m.interp.execute("o<mdisub> call [4]");
+    EXPECT(status == INTERP_EXECUTE_FINISH);
+    EXPECT(m.interp.call_level() == 1);
+    m.canon.queue_empty = true;
+    status = m.interp.execute(nullptr);
+    EXPECT(status == INTERP_OK && m.interp.call_level() == 0);
+    EXPECT(m.canon.calls.size() == 5); // finish of F100, three moves, finish
+    EXPECT(m.canon.calls.back() == "finish");
+    double value = 0;
+    EXPECT(m.interp.named_parameter("_value", &value) && value == 7);
+    m.canon.calls.clear();
+    EXPECT(m.interp.execute("m98 p33") == INTERP_ERROR); // nowhere
+    write_file("44.ngc", "o44\n(msg,in)\nm99\n");
+    EXPECT(m.interp.execute("m98 p44 l3") == INTERP_OK);
+    EXPECT(m.canon.calls.size() == 4);
+    unlink("mdisub.ngc");
+    unlink("44.ngc");
+}
+
+void mdi_leaves_the_program_where_it_was()
+{
+    Machine m;
+    write_file("prog.ngc", "G0 X1\nG0 X2\nG0 X3\nM2\n");
+    EXPECT(m.interp.open("prog.ngc") == INTERP_OK);
+    EXPECT(m.interp.read() == INTERP_OK && m.interp.execute() == INTERP_OK);
+    EXPECT(m.interp.execute("G0 Y9") == INTERP_OK);
+    EXPECT(run_to_end(m.interp) == INTERP_EXIT);
+    EXPECT(m.canon.position.tran.x == 3 && m.canon.position.tran.y == 9);
+    unlink("prog.ngc");
+}
+
+void interpreters_share_nothing()
+{
+    Machine a, b;
+    EXPECT(a.interp.execute("#1=5 #<_g>=6 G20 G91") == INTERP_OK);
+    EXPECT(b.interp.execute("#1=7") == INTERP_OK);
+    EXPECT(a.interp.parameter(1) == 5 && b.interp.parameter(1) == 7);
+    double v;
+    EXPECT(a.interp.named_parameter("_g", &v) && !b.interp.named_parameter("_g", &v));
+    int g[ACTIVE_G_CODES];
+    b.interp.active_g_codes(g);
+    EXPECT(g[5] == 210 && g[6] == 900);
+    a.interp.active_g_codes(g);
+    EXPECT(g[5] == 200 && g[6] == 910);
+}
+
+void tags_carry_the_modal_state()
+{
+    Machine m;
+    EXPECT(m.interp.execute("G21 G90 F123 S77 M3 G64 P.5 Q.25 G18 G1 X1 Z1", 42) == INTERP_OK);
+    EXPECT(m.canon.tags.size() == 1);
+    int g[ACTIVE_G_CODES], codes[ACTIVE_M_CODES];
+    double v[ACTIVE_SETTINGS];
+    EXPECT(Interp::active_modes(g, codes, v, m.canon.tags[0]));
+    EXPECT(g[0] == 42 && g[1] == 10 && g[3] == 180 && g[5] == 210 && g[7] == 940 && g[11] == 640);
+    EXPECT(codes[2] == 3 && v[1] == 123 && v[2] == 77 && v[3] == 0.5 && v[4] == 0.25);
+    state_tag_t empty{};
+    EXPECT(!Interp::active_modes(g, codes, v, empty));
+    // What is in force later goes back to what the move had.
+    EXPECT(m.interp.execute("G20 G91 F5 G61 G17") == INTERP_OK);
+    EXPECT(m.interp.restore_from_tag(m.canon.tags[0]) == INTERP_OK);
+    m.interp.active_g_codes(g);
+    m.interp.active_settings(v);
+    EXPECT(g[3] == 180 && g[5] == 210 && g[6] == 900 && g[11] == 640 && g[4] == 400);
+    EXPECT(v[1] == 123 && v[3] == 0.5 && v[4] == 0.25);
+}
+
+void reading_waits_for_the_machine()
+{
+    Machine m;
+    EXPECT(m.interp.execute("F10") == INTERP_OK);
+    EXPECT(m.interp.read("G38.2 X5") == INTERP_OK);
+    EXPECT(m.interp.execute() == INTERP_EXECUTE_FINISH);
+    m.canon.queue_empty = false;
+    EXPECT(m.interp.read("G0 X1") == INTERP_ERROR);
+    EXPECT(std::string(m.interp.error_text(INTERP_ERROR)) == "Queue is not empty after probing");
+    m.canon.queue_empty = true;
+    EXPECT(m.interp.read("G0 X[#5061+1]") == INTERP_OK && m.interp.execute() == INTERP_OK);
+    EXPECT(m.canon.position.tran.x == 6);
+}
+
+void faults_name_line_column_and_remedy()
+{
+    Machine m;
+    write_file("fault.ngc", "G21\n  G1 F100 X[1 + #<lenght>] (x)\nM2\n");
+    EXPECT(m.interp.execute("#<_length>=1") == INTERP_OK);
+    EXPECT(m.interp.open("fault.ngc") == INTERP_OK);
+    EXPECT(run_to_end(m.interp) == INTERP_ERROR);
+    const Fault &f = m.interp.fault();
+    EXPECT(f.file == "fault.ngc" && f.line == 2);
+    EXPECT(f.column == 17 && f.length == 9);
+    EXPECT(f.what == "Named parameter #<lenght> not defined");
+    EXPECT(f.fix == "did you mean #<_length>?");
+    EXPECT(f.report().find("\n                  ^~~~~~~~~\n") != std::string::npos);
+    EXPECT(m.interp.execute("G0 X1 T77") == INTERP_ERROR);
+    EXPECT(m.interp.fault().column == 7 && m.interp.fault().file.empty());
+    unlink("fault.ngc");
+}
+
+void errors_leave_no_trace()
+{
+    Machine m;
+    write_file("deep.ngc", "o<deep> sub\n#1=99\no<in> sub\no<in> endsub\no<deep> endsub\n");
+    EXPECT(m.interp.execute("#1=3 G91") == INTERP_OK);
+    EXPECT(m.interp.execute("o<deep> call [1]") == INTERP_ERROR);
+    EXPECT(m.interp.call_level() == 0 && m.interp.parameter(1) == 3);
+    EXPECT(m.interp.execute("G0 X1") == INTERP_OK);
+    unlink("deep.ngc");
+}
+
+void a_snapshot_runs_as_it_was_opened() // FP-130
+{
+    for (bool snapshot : {false, true}) {
+        TestCanon canon;
+        Interp interp(canon);
+        InterpOptions o;
+        o.snapshot = snapshot;
+        EXPECT(interp.init(o) == INTERP_OK);
+        std::string text;
+        for (int i = 0; i < 60000; ++i) text += "G0 X1\n";
+        write_file("snap.ngc", text + "G0 X2\nM2\n");
+        EXPECT(interp.open("snap.ngc") == INTERP_OK);
+        EXPECT(!interp.program_changed_on_disk());
+        EXPECT(interp.read() == INTERP_OK && interp.execute() == INTERP_OK);
+        write_file("snap.ngc", text + "G0 X666\nM2\n"); // saved by an editor, in place
+        EXPECT(interp.program_changed_on_disk());
+        EXPECT(run_to_end(interp) == INTERP_EXIT);
+        EXPECT((canon.position.tran.x == 2) == snapshot);
+        interp.exit();
+    }
+    unlink("snap.ngc");
+}
+
+void outputs_keep_their_place() // FP-110
+{
+    Machine m;
+    write_file("io.ngc", "F100\nG1 X1\nM64 P3\nG1 X2\nM62 P1\nG1 X3\nM2\n");
+    EXPECT(m.interp.open("io.ngc") == INTERP_OK);
+    EXPECT(run_to_end(m.interp) == INTERP_EXIT);
+    const std::vector<std::string> want = {"feed 2 1.000 0.000 0.000", "out 3", "feed 4 2.000 0.000 0.000", "mout 1",
+                                           "feed 6 3.000 0.000 0.000"};
+    EXPECT(m.canon.calls == want);
+    unlink("io.ngc");
+}
+
+// The text of a block that holds the same words, printed with all digits.
+std::string print_block(const ngc::Block &b)
+{
+    std::string out;
+    char buf[64];
+    for (int g : b.g_modes)
+        if (g >= 0) {
+            char name[16];
+            out += ngc::g_name(g, name);
+        }
+    for (int code : b.m_modes)
+        if (code >= 0) out += "M" + std::to_string(code);
+    for (char c = 'a'; c <= 'z'; ++c)
+        if (b.has(c)) {
+            snprintf(buf, sizeof buf, "%c%.17g", c, b[c]);
+            if (!strchr(buf, 'e') || buf[0] == 'e') out += strchr(buf + 1, 'e') ? std::string(1, c) + "0" : buf;
+        }
+    return out;
+}
+
+void a_printed_block_reads_as_the_same_block()
+{
+    Machine m;
+    EXPECT(m.interp.execute("F100 S100 M3") == INTERP_OK);
+    srand(7);
+    int equal = 0;
+    for (int n = 0; n < 20000; ++n) {
+        static const char *const heads[] = {"G1", "G0", "G1 G90 G21", "G91 G1", "G2 I1.5", "G17 G3 R50", "M3 G1", "M8 M3 G1",
+                                            "G43.1", "G10 L2 P3", "G92", "G4 P.25 G1", "G81 R5 Z1", "G64 P.1 Q.2 G1", "G53 G0 G90"};
+        std::string text = heads[size_t(rand()) % (sizeof heads / sizeof *heads)];
+        for (char c : {'X', 'Y'}) {
+            char word[64];
+            snprintf(word, sizeof word, rand() % 3 ? " %c%.6f" : " %c[%.4f*2 + 1]", c, (rand() - RAND_MAX / 2) / 1e7);
+            text += word;
+        }
+        Setup &s = m.interp.setup();
+        if (m.interp.read(text.c_str()) != INTERP_OK) continue;
+        const std::string first = print_block(s.block);
+        EXPECT(m.interp.read(first.c_str()) == INTERP_OK);
+        const std::string second = print_block(s.block);
+        EXPECT(first == second);
+        ++equal;
+    }
+    EXPECT(equal > 15000);
+}
+
+void checks_find_what_is_wrong_without_a_machine() // FP-104
+{
+    write_file("check.ngc", "G0 X1\nG1 X2 F100\nG20\nG1 X3\nG21\nX1 X2\nT5 M6\nM2\nG0 X5\n");
+    CheckOptions o;
+    o.tool_file = write_file("check.tbl", "T1 P1\n");
+    const auto found = check_program("check.ngc", o);
+    std::string all;
+    for (const Finding &f : found)
+        all += std::to_string(f.fault.line) + (f.severity == Finding::ERROR ? "E " : "W ") + f.fault.what + "\n";
+    EXPECT(all == "0W the program uses both G20 and G21\n"
+                  "6E Multiple x words on one line\n"
+                  "7E Requested tool 5 not found in the tool table\n"
+                  "9W never executed: the program ends in line 8\n");
+    write_file("check.ngc", "G1 X2 F100\nM2\n");
+    const auto units = check_program("check.ngc", CheckOptions());
+    EXPECT(units.size() == 1 && units[0].fault.what == "a feed move before any G20 or G21");
+    write_file("check.ini", "[TRAJ]\nLINEAR_UNITS=mm\nCOORDINATES=XYZ\n[AXIS_X]\nMIN_LIMIT=-10\nMAX_LIMIT=10\n"
+                            "[AXIS_Y]\nMIN_LIMIT=-10\nMAX_LIMIT=10\n[AXIS_Z]\nMIN_LIMIT=-10\nMAX_LIMIT=10\n");
+    write_file("check.ngc", "G21 F100\nG10 L2 P1 X2\nG0 X8\nG0 X8.1\nG0 X0 Y0\nG3 X0 Y0 I0 J6\nM2\n");
+    o = CheckOptions();
+    o.interp.ini_file = "check.ini";
+    const auto limits = check_program("check.ngc", o);
+    EXPECT(limits.size() == 2 && limits[0].fault.line == 4 && limits[1].fault.line == 6);
+    for (const char *name : {"check.ngc", "check.tbl", "check.ini"}) unlink(name);
+}
+
+} // namespace
+
+int main()
+{
+    char dir[] = "/tmp/interp-unit.XXXXXX";
+    if (!mkdtemp(dir) || chdir(dir) != 0) return 1;
+    struct {
+        const char *name;
+        void (*run)();
+    } tests[] = {
+        {"mdi runs whole subs", mdi_runs_whole_subs},
+        {"mdi leaves the program where it was", mdi_leaves_the_program_where_it_was},
+        {"interpreters share nothing", interpreters_share_nothing},
+        {"tags carry the modal state", tags_carry_the_modal_state},
+        {"reading waits for the machine", reading_waits_for_the_machine},
+        {"faults name line, column and remedy", faults_name_line_column_and_remedy},
+        {"errors leave no trace", errors_leave_no_trace},
+        {"FP-130 a snapshot runs as it was opened", a_snapshot_runs_as_it_was_opened},
+        {"FP-110 outputs keep their place", outputs_keep_their_place},
+        {"a printed block reads as the same block", a_printed_block_reads_as_the_same_block},
+        {"FP-104 checks find what is wrong without a machine", checks_find_what_is_wrong_without_a_machine},
+    };
+    for (const auto &t : tests) {
+        const int before = failures;
+        t.run();
+        printf("%s: %s\n", failures == before ? "ok" : "FAILED", t.name);
+    }
+    if (chdir("/") == 0) rmdir(dir);
+    return failures ? 1 : 0;
+}

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Prolog, body and epilog in Python, generators that wait, O-word subs, named parameters, errors."""
+from harness import *
+
+INI = """[EMC]
+VERSION=1.1
+[TRAJ]
+LINEAR_UNITS=mm
+[PYTHON]
+TOPLEVEL=python/toplevel.py
+PATH_PREPEND=./python
+[RS274NGC]
+SUBROUTINE_PATH=subs
+REMAP=M400 modalgroup=10 argspec=Pq python=m400
+REMAP=M6 modalgroup=6 prolog=pro epilog=epi ngc=six
+REMAP=M401 modalgroup=10 python=m401
+REMAP=M402 modalgroup=10 python=m402
+REMAP=M403 modalgroup=10 python=m403
+REMAP=M404 modalgroup=10 argspec=@P python=m400
+REMAP=M405 modalgroup=10 python=m405
+REMAP=M406 modalgroup=10 python=m406
+REMAP=M407 modalgroup=10 python=m407
+REMAP=G88.2 modalgroup=1 argspec=XZ python=g882
+"""
+FILES = {
+    "python/toplevel.py": "import remap\nimport oword\nimport namedparams\ndef __init__(self):\n    print('init', self.task)\ndef __delete__(self):\n    print('delete')\n",
+    "python/remap.py": """from interpreter import *
+import emccanon
+def m400(self, **words):
+    print('m400', words, self.blocks[self.remap_level].p_number, str(self.blocks[self.remap_level].executing_remap).strip())
+    self.execute('G1 X[1+%f]' % words['p'])
+    emccanon.MESSAGE('from python')
+    return INTERP_OK
+def pro(self, **words):
+    print('prolog', self.selected_tool, self.selected_pocket, self.current_tool, self.remap_level)
+    self.params['zz'] = 7
+    return INTERP_OK
+def epi(self, **words):
+    print('epilog', self.blocks[self.remap_level].builtin_used, self.return_value, self.value_returned, self.params['zz'])
+    return INTERP_OK
+def m401(self, **words):
+    self.execute('G38.2 Z-5')
+    yield INTERP_EXECUTE_FINISH
+    print('probed', self.params[5063], self.parameters[5070])
+    self.execute('o<sub> call [3]')
+    print('after sub', self.return_value, self.current_x, self.active_g_codes[1], len(self.params))
+    yield INTERP_OK
+    print('never')
+def m402(self, **words):
+    self.set_errormsg('my error')
+    return INTERP_ERROR
+def m403(self, **words):
+    try:
+        self.execute('G1 X[1/0]')
+    except InterpreterException as e:
+        print('caught', e.error_message, e.line_text)
+    try:
+        self.params['nothere']
+    except RuntimeError as e:
+        print(e)
+def m405(self, **words):
+    raise ValueError('boom')
+def m406(self, **words):
+    return 'said so'
+def m407(self, **words):
+    return 1.5
+def g882(self, **words):
+    print('cycle', sorted(words.items()), self.blocks[self.remap_level].g_modes[1])
+    self.motion_mode = 882
+""",
+    "python/oword.py": "def square(self, *a):\n    return a[0]**2\ndef wait(self, *a):\n    self.execute('M66 P1 L0')\n    yield 2\n    print('waited', self.params[5399])\n    yield 8.5\n"
+                       "def nothing(self):\n    pass\ndef bad(self):\n    return 'x'\n",
+    "python/namedparams.py": "def _answer(self):\n    return 42\ndef _bad(self):\n    return None\n",
+    "subs/six.ngc": "o<six> sub\n(debug,zz=#<zz> rl=#<_remap_level> cl=#<_call_level>)\nM6\no<six> endsub [5]\n",
+    "subs/sub.ngc": "o<sub> sub\n(print,in sub #1)\no<sub> return [#1+1]\no<sub> endsub\n",
+}
+
+
+def run(program, ini=INI):
+    return rs274(program, ini=ini, files=FILES)
+
+
+r = run("G21 F100\nM400 P5 Q7 G0 X3\nT1\nM6\nM401\nM2\n")
+check(r.status == 0, r.err)
+check(r.printed == ["init 0", "m400 {'p': 5.0, 'q': 7.0} 5.0 Remap(M400 argspec=Pq modal_group=10 prolog=None ngc=None python=m400 epilog=None)",
+                    "prolog 1 1 -1 1", "epilog True 5.0 1 7.0", "probed -5.0 0.0", "in sub 3.000000", "after sub 4.0 3.0 382 5602", "delete"], r.printed)
+check([n for n, _ in r.calls if n in ("MESSAGE", "CHANGE_TOOL", "STRAIGHT_FEED", "STRAIGHT_TRAVERSE")] ==
+      ["STRAIGHT_FEED", "MESSAGE", "STRAIGHT_TRAVERSE", "MESSAGE", "CHANGE_TOOL"], r.out)
+r = run("o<square> call [7]\n(print,#<_value> #<_value_returned> #<_answer>)\no<wait> call\n(print,#<_value>)\no<nothing> call\n(print,#<_value_returned>)\n"
+        "M403\n;py,print('line', this.params['_answer'])\nG88.2 X1 Z2\nX3 Z4\nM2\n")
+check(r.printed[1:-1] == ["49.000000 1.000000 42.000000", "waited 0.0", "8.500000", "0.000000", "caught Attempt to divide by zero G1 X[1/0]",
+                          "parameter does not exist: nothere", "line 42.0", "cycle [('x', 1.0), ('z', 2.0)] 882", "cycle [('x', 3.0), ('z', 4.0)] -1"], r.printed)
+for program, want, line in (("M402", "my error", "O <m402> call "), ("M405", "pycall(m405):", None), ("M406", "said so", None),
+                            ("M407", "handler_returned: m407 returned double: 1.500000 - invalid", None), ("M404 P1", "add parameters: can't add 'p' to args", "M404 P1"),
+                            ("o<bad> call", "pycall(oword.bad) failed", None), ("G0 X#<_bad>", "Python namedparams._bad returns no value", "G0 X#<_bad>"),
+                            (";py,1/0", None, ";py,1/0")):
+    r = run(program + "\nM2\n")
+    lines = r.err.split("\n")
+    check(r.status == 1 and (want is None or want in lines), f"{program}: {r.err}")
+    check(line is None or line in lines, f"{program}: {r.err}")
+check("ZeroDivisionError" in run(";py,1/0\nM2\n").err and "ValueError: boom" in run("M405\nM2\n").err, "tracebacks are shown")
+r = run("M2\n", INI.replace("python=m400", "python=nothere"))
+check(r.status == 1 and "'nothere' is not a Python callable function" in r.err, r.err)
+done()

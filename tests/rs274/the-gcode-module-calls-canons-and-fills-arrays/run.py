@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""gcode.parse with callbacks and batches, gcode.load into arrays: they agree."""
+import math
+import os
+import tempfile
+from harness import *
+import gcode
+
+
+class Canon:
+    def __init__(self, folder):
+        self.parameter_file = folder + "/p.var"
+        self.log = []
+
+    def get_axis_mask(self): return 0x1ff
+    def get_external_length_units(self): return 1.0
+    def get_external_angular_units(self): return 1.0
+    def get_tool(self, i): return (1, 0., 0., 10., 0., 0., 0., 0., 0., 0., 6., 0., 0., 0) if i < 2 else (-1,) + (0.,) * 12 + (0,)
+    def get_block_delete(self): return 0
+    def check_abort(self): return False
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name in ("use_move_batches", "move_batch", "log"):
+            raise AttributeError(name)
+        return lambda *a: self.log.append((name,) + a)
+
+    def next_line(self, st):
+        self.log.append(("next_line", st.sequence_number, st.motion_mode, st.feed_rate))
+
+
+class Batches(Canon):
+    use_move_batches = True
+
+    def move_batch(self, rows):
+        self.log += [("row",) + tuple(rows.cast("d")[i:i + 13]) for i in range(0, rows.nbytes // 8, 13)]
+
+
+with tempfile.TemporaryDirectory() as d:
+    def parse(text, canon=Canon, codes=("G20",)):
+        open(d + "/t.ngc", "w").write(text)
+        c = canon(d)
+        return gcode.parse(d + "/t.ngc", c, list(codes)), c.log
+
+    result, log = parse("G1 X25.4 F254 (hello)\nG2 X0 I-12.7\n(msg,hi)\nG4P.5\nM101P3\nT1 M6\nG43 H1\nG0 Z2.54 A90\nG18\nM2\n", codes=["G21"])
+    check(result == (1, 10), result)
+    calls = [l for l in log if l[0] != "next_line"]
+    check(calls[:3] == [("set_g5x_offset", 1) + (0.,) * 9, ("set_g92_offset",) + (0.,) * 9, ("set_xy_rotation", 0.)], calls[:3])
+    check(calls[3:] == [("comment", "hello"), ("set_feed_rate", 10.), ("straight_feed", 1.) + (0.,) * 8,
+                        ("arc_feed", 0., 0., .5, 0., -1, 0., 0., 0., 0., 0., 0., 0.), ("message", "hi"), ("dwell", .5),
+                        ("user_defined_function", 1, 3., -1.), ("change_tool", 1), ("tool_offset", 0., 0., 10. / 25.4) + (0.,) * 6,
+                        ("straight_traverse", 0., 0., .1, 90.) + (0.,) * 5, ("set_plane", 3),
+                        ("set_g5x_offset", 1) + (0.,) * 9, ("set_xy_rotation", 0.), ("set_plane", 1), ("set_feed_rate", 0.)], calls[3:])
+    lines = [l[1] for l in log if l[0] == "next_line"]
+    check(lines == [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10], lines)
+    check([l for l in log if l[0] == "next_line" and l[1] == 2][0][2:] == (10, 254.0), "codes before the line")
+
+    result, log = parse("G1 X1 F5\nG0 X2\nF6\nG1 X3\nG2 X4 I.5\nG4 P1\nT1 M6\nM2\n", Batches)
+    rows = [l[1:] for l in log if l[0] == "row"]
+    check([r[:3] for r in rows] == [(1, 1, 1), (0, 2, 2), (1, 4, 3), (4, 6, 1), (6, 7, 1)], rows)
+    check([r[11] for r in rows] == [5, 5, 6, 6, 6], rows)
+    names = [l[0] for l in log if l[0] != "next_line"]
+    check(names.index("arc_feed") > names.index("row") and names.count("set_feed_rate") == 3, names)
+
+    result, log = parse("G0 X1\nG1 X2 F1\nX[#<nope>]\nM2\n")
+    check(result == (5, 3) and gcode.strerror(5) == "Named parameter #<nope> not defined", (result, gcode.strerror(5)))
+    check(parse("G0 X1\n")[0][0] == 5 and "File ended" in gcode.strerror(5), "no end")
+    check(parse("%\nG0 X1\n%\n")[0] == (3, 2), parse("%\nG0 X1\n%\n")[0])
+    check(gcode.parse(d + "/nothere", Canon(d), ["G20"])[0] == 4 and gcode.strerror(4) == "File not open", "no file")
+
+    class Raises(Canon):
+        def straight_feed(self, *a): raise ValueError("x")
+    try:
+        parse("G1 X1 F1\nM2\n", Raises)
+        check(False, "nothing raised")
+    except RuntimeError as e:
+        check(str(e) == "parse_file interp_error", e)
+
+    class Stops(Canon):
+        def comment(self, text): raise KeyboardInterrupt
+    try:
+        parse("(AXIS,stop)\nM2\n", Stops)
+        check(False, "nothing raised")
+    except KeyboardInterrupt:
+        pass
+
+    # arrays
+    open(d + "/t.ngc", "w").write("G21 G90 F254\nG0 X25.4\nG1 Y25.4\nG2 X50.8 Y50.8 I25.4 J0\nG10 L2 P1 X25.4 R90\nG0 X0 Y0\n(AXIS,hide)\nG1 X99\n(AXIS,show)\nG4 P2\nM101\n"
+                                  "T1 M6\nG43 H1\nG0 X2\nG1 X3\nM2\n")
+    tools = [Canon(d).get_tool(i) for i in range(3)]
+    p = gcode.load(d + "/t.ngc", tools=tools, initcodes=["G21"])
+    check(p.result == 1 and p.error == "" and p.last_line == 16, (p.error, p.last_line))
+    points, lines, kinds = p.positions.tolist(), p.lines.tolist(), p.kinds.tolist()
+    check(len(points) == len(lines) == len(kinds) == p.n_vertices, "lengths")
+    check(kinds[0] == 3 and kinds[1] == 1 and near(points[1][:3], [1, 1, 0]), points[:2])
+    arc = [n for n, k in enumerate(kinds) if k == 2]
+    check(len(arc) == 32 and all(abs(math.hypot(points[n][0] - 2, points[n][1] - 1) - 1) < 1e-6 for n in arc), len(arc))
+    traverse = [points[n][:2] for n, k in enumerate(kinds) if k == 0]
+    check(near(traverse[0], [1, 0], 1e-6), f"rotated system: {traverse}")
+    check(abs(p.cutting_length - (1 + 32 * 2 * math.sin(math.pi / 128) + 1 / 25.4)) < 1e-5 and p.dwell_time == 2, p.cutting_length)
+    check(abs(p.cutting_time(5) - p.cutting_length / 5 * 60) < 1e-6 and abs(p.cutting_time(1000) - p.cutting_length / 10 * 60) < 1e-6, "times")
+    check(p.tools == [(len([k for n, k in enumerate(kinds) if lines[n] <= 12]), 1)] and len(p.marks) == 2, (p.tools, p.marks))
+    check(near(p.extents[0], [1 - 3 / 25.4 * 0, 0, 0], 2), p.extents)
+    stop = gcode.load(d + "/t.ngc", progress=lambda line: True)
+    check(stop.result in (0, 1), stop.result)
+    open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")
+    bad = gcode.load(d + "/bad.ngc")
+    check(bad.fault["line"] == 2 and bad.fault["column"] == 7 and bad.fault["what"] == "Multiple x words on one line", bad.fault)
+
+    check(gcode.calc_extents([(1, (0,) * 9, (5,) + (0,) * 8, (0, 0, 1))], [(2, (1, 2, 3) + (0,) * 6, (4, 4, 4) + (0,) * 6, 10., (1, 1, 1))]) ==
+          ([0, 0, 0], [5, 4, 4], [0, 0, 1], [5, 5, 5]), "extents")
+    check(gcode.MIN_ERROR == 3 and gcode.MAX_ERROR == -1, "constants")
+done()

@@ -1,0 +1,2 @@
+#!/bin/bash
+exec ../../../objects/test/interp-unit
