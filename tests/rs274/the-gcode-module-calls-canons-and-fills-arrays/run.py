@@ -100,7 +100,7 @@ with tempfile.TemporaryDirectory() as d:
     check(abs(p.cutting_time(5) - p.cutting_length / 5 * 60) < 1e-6 and abs(p.cutting_time(1000) - p.cutting_length / 10 * 60) < 1e-6, "times")
     check(p.tools == [(len([k for n, k in enumerate(kinds) if lines[n] <= 12]), 1)] and len(p.marks) == 2, (p.tools, p.marks))
     check(near(p.extents[0], [1 - 3 / 25.4 * 0, 0, 0], 2), p.extents)
-    stop = gcode.load(d + "/t.ngc", progress=lambda line: True)
+    stop = gcode.load(d + "/t.ngc", tools=tools, progress=lambda line: True)
     check(stop.result in (0, 1), stop.result)
     open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")
     bad = gcode.load(d + "/bad.ngc")
