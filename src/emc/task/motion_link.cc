@@ -61,7 +61,7 @@ emcmot_command_t MotionLink::axis_command(cmd_code_t code, int a) const {
 
 int MotionLink::send(emcmot_command_t &c) { return usrmotWriteEmcmotCommand(&c); }
 
-// A move is acknowledged before the servo cycle that takes it up has published queue and
+// A move, jog, homing or change of mode is acknowledged before the servo cycle that takes it up has published queue and
 // in-position: until the next heartbeat motion counts as busy.
 int MotionLink::send_move(emcmot_command_t &c) {
     int r = send(c);
@@ -351,19 +351,20 @@ int MotionLink::abort() {
 }
 
 int MotionLink::set_mode(int traj_mode) {
-    return send(traj_mode == EMC_TRAJ_MODE_COORD ? EMCMOT_COORD : traj_mode == EMC_TRAJ_MODE_TELEOP ? EMCMOT_TELEOP : EMCMOT_FREE);
+    emcmot_command_t c = command(traj_mode == EMC_TRAJ_MODE_COORD ? EMCMOT_COORD : traj_mode == EMC_TRAJ_MODE_TELEOP ? EMCMOT_TELEOP : EMCMOT_FREE);
+    return send_move(c);
 }
 
 int MotionLink::home(int j) {
     if (j < -1 || j >= EMCMOT_MAX_JOINTS) return 0;
     emcmot_command_t c = joint_command(EMCMOT_JOINT_HOME, j);
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::unhome(int j) {
     if (j < -2 || j >= EMCMOT_MAX_JOINTS) return 0;
     emcmot_command_t c = joint_command(EMCMOT_JOINT_UNHOME, j);
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::jog_cont(int nr, double vel, int jjogmode) {
@@ -371,7 +372,7 @@ int MotionLink::jog_cont(int nr, double vel, int jjogmode) {
     emcmot_command_t c = jjogmode ? joint_command(EMCMOT_JOG_CONT, nr) : axis_command(EMCMOT_JOG_CONT, nr);
     double most = jjogmode ? joint[nr].max_velocity : axis[nr].max_velocity;
     c.vel = std::clamp(vel, -most, most);
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::jog_incr(int nr, double incr, double vel, int jjogmode) {
@@ -380,7 +381,7 @@ int MotionLink::jog_incr(int nr, double incr, double vel, int jjogmode) {
     double most = jjogmode ? joint[nr].max_velocity : axis[nr].max_velocity;
     c.vel = std::clamp(vel, -most, most);
     c.offset = incr;
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::jog_abs(int nr, double pos, double vel, int jjogmode) {
@@ -389,13 +390,13 @@ int MotionLink::jog_abs(int nr, double pos, double vel, int jjogmode) {
     double most = jjogmode ? joint[nr].max_velocity : axis[nr].max_velocity;
     c.vel = std::clamp(vel, -most, most);
     c.offset = pos;
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::jog_stop(int nr, int jjogmode) {
     if (jjogmode ? !is_joint(nr) : !is_axis(nr)) return 0;
     emcmot_command_t c = jjogmode ? joint_command(EMCMOT_JOG_ABORT, nr) : axis_command(EMCMOT_JOG_ABORT, nr);
-    return send(c);
+    return send_move(c);
 }
 
 int MotionLink::override_limits(int j) {

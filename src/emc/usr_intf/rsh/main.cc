@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "kerf_clock.h"
 #include "session.hh"
 
 static volatile int stop = 0;
@@ -76,8 +77,9 @@ int main(int argc, char **argv) {
     sigaction(SIGINT, &act, nullptr);
     sigaction(SIGTERM, &act, nullptr);
     signal(SIGPIPE, SIG_IGN);
+    kerf_clock_join("linuxcncrsh", KERF_CLOCK_PRIO_USER);
     rsh::Server server(o);
-    if (!server.start()) return 1;
-    server.run(&stop);
-    return 0;
+    bool good = server.start();
+    if (good) server.run(&stop);
+    return good ? 0 : 1;
 }

@@ -24,6 +24,7 @@
 namespace rsh {
 
 constexpr int64_t MS = 1'000'000;
+constexpr size_t MAX_LINE = 4096; // bytes; half a command is never executed
 
 std::string upper(std::string s) {
     for (char &c : s) c = static_cast<char>(toupper(static_cast<unsigned char>(c)));
@@ -70,7 +71,7 @@ void Session::input(const char *data, size_t n) {
         if (data[i] == '\r' || data[i] == '\n') {
             if (!partial_.empty()) lines_.push_back(partial_);
             partial_.clear();
-        } else if (partial_.size() < 4096) {
+        } else if (partial_.size() <= MAX_LINE) { // one more than allowed marks a line as too long
             partial_ += data[i];
         }
     }
@@ -97,6 +98,7 @@ void Session::reply(const std::string &text) {
 void Session::next_line() {
     std::string line = lines_.front();
     lines_.pop_front();
+    if (line.size() > MAX_LINE) return error("Line too long, " + std::to_string(MAX_LINE) + " characters at most");
     Words w = split(line);
     if (w.empty()) return;
     std::string command = upper(w[0]);
@@ -175,7 +177,7 @@ void Session::set(const Words &w, const std::string &line) {
     Words args(w.begin() + 2, w.end());
     if (s->remote)
         for (auto &other : server_.sessions)
-            if (other.second->waiting())
+            if (other.second->holds_others_up())
                 return error("Cannot issue SET " + name + " command while SET " + other.second->waiting_for()->name + " command is still active");
     auto nak = [&](const std::string &text) {
         error(text);
@@ -186,14 +188,17 @@ void Session::set(const Words &w, const std::string &line) {
     if (s->level >= Level::hello && !linked) return nak("A HELLO must be successfully negotiated for SET " + name);
     if (s->level >= Level::enable && !enabled) return nak("Connection must be enabled for SET " + name);
     if (s->level == Level::on && server_.stat.task.state != EMC_TASK_STATE_ON) return nak("Machine must be 'ON' for SET " + name);
+    int before = server_.client->serial();
     Result r = s->set ? s->set(*this, server_, args, from_word(line, 2)) : Result::failed;
+    if (server_.client->serial() != before) serial_ = server_.client->serial();
     switch (r) {
     case Result::failed: reply("SET " + name + " NAK"); break;
     case Result::done: if (verbose) reply("SET " + name + " ACK"); break;
     case Result::sent:
+        wait_for_done_ = wait_done;
+        [[fallthrough]];
+    case Result::waits:
         waiting_ = s;
-        waiting_name_ = name;
-        serial_ = server_.client->serial();
         started_ = kerf_clock_now_ns();
         interval_ = MS;
         next_poll_ = started_ + interval_;
@@ -201,8 +206,11 @@ void Session::set(const Words &w, const std::string &line) {
     }
 }
 
+// A client that is gone, or has ended its input, waits on for its own sake only.
+bool Session::holds_others_up() const { return waiting_ && waiting_->remote && !input_ended; }
+
 void Session::finish_wait(int status) {
-    std::string name = waiting_name_;
+    std::string name = waiting_->name;
     waiting_ = nullptr;
     if (status == RCS_ERROR) reply("SET " + name + " NAK");
     else if (verbose) reply("SET " + name + " ACK");
@@ -215,9 +223,9 @@ void Session::poll_waiting() {
     int diff = server_.stat.echo_serial_number - serial_;
     int status = server_.stat.status;
     if (diff > 0) return finish_wait(RCS_DONE);
-    if (diff == 0 && (!wait_done || status == RCS_DONE || status == RCS_ERROR)) return finish_wait(status);
+    if (diff == 0 && (!wait_for_done_ || status == RCS_DONE || status == RCS_ERROR)) return finish_wait(status);
     if (timeout_s > 0 && static_cast<double>(now - started_) > timeout_s * 1e9) {
-        error("command 'SET " + waiting_name_ + "' timed out");
+        error("command 'SET " + std::string(waiting_->name) + "' timed out");
         return finish_wait(status);
     }
     interval_ = std::min<int64_t>(interval_ * 2, 100 * MS);
@@ -362,7 +370,7 @@ void Server::run(const volatile int *stop) {
             short events = 0;
             if (!s.second->input_ended) events |= POLLIN | POLLPRI;
             if (!s.second->output.empty()) events |= POLLOUT;
-            fds.push_back({s.first, events, 0});
+            fds.push_back({events ? s.first : -1, events, 0}); // one that has ended its input and gets nothing has no news
             ids.push_back(s.first);
             if (s.second->waiting()) timeout = std::min(timeout, std::max<int64_t>(0, s.second->next_poll_ns() - now));
             else if (s.second->has_line()) timeout = 0;

@@ -16,7 +16,9 @@
 namespace rsh {
 
 enum class Level { none, hello, enable, on };
-enum class Result { failed, done, sent }; // sent: a command to task, the answer comes later
+// sent: a command to task, the answer comes when task has done (or received) it; waits: the same
+// for the command before, as wait_for() says
+enum class Result { failed, done, sent, waits };
 
 using Words = std::vector<std::string>;
 
@@ -50,7 +52,8 @@ public:
     void poll_waiting();  // looks whether the command under way is done
     bool waiting() const { return waiting_ != nullptr; }
     const Subcommand *waiting_for() const { return waiting_; }
-    void cancel_wait() { waiting_ = nullptr; }
+    bool holds_others_up() const; // no other connection may give task a command now
+    void wait_for(bool done) { wait_for_done_ = done; }
     int64_t next_poll_ns() const { return next_poll_; }
 
     void reply(const std::string &text);
@@ -68,8 +71,8 @@ private:
     std::string partial_;
     std::deque<std::string> lines_;
     const Subcommand *waiting_ = nullptr;
-    std::string waiting_name_;
-    int serial_ = 0;
+    bool wait_for_done_ = true;
+    int serial_ = 0; // of the last command that this connection gave
     int64_t started_ = 0, next_poll_ = 0, interval_ = 0;
 };
 

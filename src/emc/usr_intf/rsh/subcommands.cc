@@ -174,7 +174,7 @@ template <class M, class F> bool give_and_see(Server &v, M &m, F seen) {
 
 bool busy(Server &v) {
     for (auto &s : v.sessions)
-        if (s.second->waiting()) return true;
+        if (s.second->holds_others_up()) return true;
     return false;
 }
 
@@ -264,6 +264,8 @@ bool say_message(Session &s, Server &v, const char *name, std::deque<std::string
     return true;
 }
 
+constexpr int HOMING_GAP = 25; // heartbeats
+
 Result wait_homed(Session &s, Server &v, const Words &a) {
     int j;
     double timeout = 10;
@@ -275,9 +277,9 @@ Result wait_homed(Session &s, Server &v, const Words &a) {
     }
     if (timeout > 30) s.warning("Timeout above 30 seconds. The remote shell and all other remote connections may stall for this period.");
     int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout * 1e9);
-    for (;;) {
+    for (int idle = 0;;) {
         v.refresh();
-        bool done = true;
+        bool done = true, all = true;
         for (int n = j < 0 ? 0 : j; n < (j < 0 ? v.joints() : j + 1); n++) {
             const EMC_JOINT_STAT &joint = v.stat.motion.joint[n];
             if (joint.homed) continue;
@@ -285,9 +287,11 @@ Result wait_homed(Session &s, Server &v, const Words &a) {
                 s.error(text("Joint '%d' is not homed and not in the process of homing.", j));
                 return Result::failed;
             }
+            all = false;
             if (joint.homing) done = false;
         }
-        if (done) break;
+        idle = done ? idle + 1 : 0;
+        if (all || idle > HOMING_GAP) break; // between two steps of a sequence nothing homes
         if (kerf_clock_now_ns() > until) {
             s.error(j < 0 ? text("One or more joints are still not homed after %.1f seconds", timeout) : text("Joint '%d' still not homed after %.1f seconds", j, timeout));
             return Result::failed;
@@ -447,10 +451,9 @@ const std::vector<Subcommand> &subcommands() {
              UNUSED_SET;
              int i;
              if (!need_word(s, a[0], {"received", "done", "none"}, &i)) return Result::failed;
-             double t = s.timeout_s > 0 ? s.timeout_s : 30;
-             if (i == 0) return v.client->wait_received(t, 0.001) ? Result::done : Result::failed;
-             if (i == 1) return v.client->wait_done(t, 0.001) == RCS_DONE ? Result::done : Result::failed;
-             return Result::done;
+             if (i == 2) return Result::done;
+             s.wait_for(i == 1);
+             return Result::waits;
          }},
         {"WAIT_MODE", Level::enable, false, 0, 1, "{received|done}", GET { UNUSED; s.reply(std::string("WAIT_MODE ") + (s.wait_done ? "DONE" : "RECEIVED")); return true; }, SET {
              UNUSED_SET;
@@ -576,7 +579,7 @@ const std::vector<Subcommand> &subcommands() {
              v.linear_conversion = upper(a[0]);
              return Result::done;
          }},
-        {"LOAD_TOOL_TABLE", Level::on, true, 0, 0, "file", nullptr, SET {
+        {"LOAD_TOOL_TABLE", Level::on, true, 0, 1, "file", nullptr, SET {
              UNUSED_SET;
              std::string full;
              if (!need_file(s, v, rest, &full)) return Result::failed;
@@ -587,6 +590,7 @@ const std::vector<Subcommand> &subcommands() {
         {"MDI", Level::on, true, 0, 1, "text", nullptr, SET {
              UNUSED_SET;
              EMC_TASK_PLAN_EXECUTE m;
+             if (rest.size() >= sizeof m.command) { s.error("MDI commands limited to 254 characters"); return Result::failed; }
              copy_text(m.command, rest.c_str());
              return give(v, m);
          }},
@@ -603,7 +607,7 @@ const std::vector<Subcommand> &subcommands() {
              m.mode = i + 1;
              return give(v, m);
          }},
-        {"OPEN", Level::on, true, 0, 0, "file", GET { UNUSED; s.reply("OPEN " + (s.opened.empty() ? std::string("NONE") : s.opened)); return true; }, SET {
+        {"OPEN", Level::on, true, 0, 1, "file", GET { UNUSED; s.reply("OPEN " + (s.opened.empty() ? std::string("NONE") : s.opened)); return true; }, SET {
              UNUSED_SET;
              std::string full;
              if (!need_file(s, v, rest, &full)) return Result::failed;

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "lib"))
+from mill import *
+from rsh import *
+
+for options in (["-p", "0"], ["-p", "65535"], ["-p", "x"], ["-e", "OFF"], ["-e", "a b"], ["-z"]):
+    done = subprocess.run(["linuxcncrsh", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    print(options, done.returncode, bool(done.stderr), done.stdout)
+print("-h", subprocess.run(["linuxcncrsh", "-h"], stdout=subprocess.DEVNULL).returncode)
+
+server = Server("-n", "shop", "-w", "hi", "-e", "open", "-s", "2", "-4", wait=False)
+while True:
+    try:
+        a = Client(server, enable=False)
+        break
+    except ConnectionRefusedError:
+        sleep(0.01)
+show(a, "HELLO EMC x 1", "HELLO hi x 1", "SET ENABLE EMCTOO", "SET ENABLE open", "GET ENABLE")
+b = Client(server, enable=False)
+third = socket.create_connection(("127.0.0.1", server.port))
+clock.suspend()
+print("third:", third.recv(100))
+clock.resume()
+b.close()
+sleep(0.1)
+c3 = Client(server, enable=False)
+print("after one left:", c3.say("GET ECHO"))
+try:
+    socket.create_connection(("::1", server.port))
+    print("IPv6 in spite of -4")
+except OSError:
+    print("no IPv6")
+
+local, epoch = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{6}: ", r"\d+\.\d{6}: "
+for line, shape in (("SET TIMESTAMP ON", local), ("SET TIMESTAMP ON OFF", local), ("SET TIMESTAMP ON ON", epoch)):
+    a.say(line)
+    replies = a.say("GET TIMESTAMP", "SET TIMESTAMP x")
+    print(line, [re.sub(f"^{shape}", "<t> ", r) for r in replies])
+    a.say("SET TIMESTAMP OFF")
+print(re.fullmatch(r"TIME \d+\.\d{6}", a.say("GET TIME")[0]) is not None)
+
+# The two address families of a default server, and a second program on the same port.
+six = Server()
+with socket.socket(socket.AF_INET6) as s:
+    try:
+        s.connect(("::1", six.port))
+        print("IPv6 works")
+    except OSError as e:
+        print("IPv6 works" if not Path("/proc/net/if_inet6").exists() else e)
+print("elsewhere:", end=" ")
+try:
+    socket.create_connection((socket.gethostbyname(socket.gethostname()), six.port), 1)
+    print("let in" if not socket.gethostbyname(socket.gethostname()).startswith("127.") else "not")
+except OSError:
+    print("not")
+again = clock.run(["linuxcncrsh", "-q", "-p", str(six.port), "--", "-ini", "mill.ini"], stderr=subprocess.PIPE, text=True)
+print("port taken:", again.returncode, str(six.port) in again.stderr)
+print(clock.run(["linuxcncrsh", "--", "-ini", "none.ini"], stderr=subprocess.DEVNULL).returncode, six.stop(), server.stop())
