@@ -62,8 +62,7 @@ static void cmd_abort(M *m, C *c)
     } else {
         for (int j = 0; j < all_joints(m); j++) {
             m->joint[j].free_tp.enable = 0;
-            if (!get_home_is_idle(j))
-                do_cancel_homing(j);
+            do_cancel_homing(j); /* also of a joint whose turn has not come */
         }
     }
     set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
@@ -898,7 +897,7 @@ static void cmd_joint_deactivate(M *m, C *c)
 
 static void cmd_joint_home(M *m, C *c)
 {
-    if (m->status->motion_state != EMCMOT_MOTION_FREE && is_enabled(m)) {
+    if (m->status->motion_state != EMCMOT_MOTION_FREE) {
         report_error("must be in joint mode to home");
         return;
     }

@@ -5,6 +5,7 @@
  * Thread: init
  */
 #include "hal.h"
+#include "homing_priv.h"
 #include "rtapi.h"
 #include "rtapi_app.h"
 
@@ -14,16 +15,14 @@ MODULE_LICENSE("GPL");
 
 static char *home_parms;
 RTAPI_MP_STRING(home_parms, "home parms");
-static int comp_id;
-
 int rtapi_app_main(void)
 {
-    comp_id = hal_init("homemod");
-    if (comp_id < 0) {
+    homing_owner = hal_init("homemod");
+    if (homing_owner < 0) {
         rtapi_print_msg(RTAPI_MSG_ERR, "\nhomemod FAIL:<hal_init()>\n");
         return -1;
     }
-    return hal_ready(comp_id);
+    return hal_ready(homing_owner);
 }
 
-void rtapi_app_exit(void) { hal_exit(comp_id); }
+void rtapi_app_exit(void) { hal_exit(homing_owner); }

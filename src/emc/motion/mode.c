@@ -99,8 +99,7 @@ static void disable(struct motion *m)
             set_joint_flag(jt, EMCMOT_JOINT_INPOS_BIT, 1);
             set_joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT, 0);
         }
-        if (!get_home_is_idle(j))
-            do_cancel_homing(j);
+        do_cancel_homing(j); /* also of a joint whose turn has not come */
     }
     axes_abort(m, 1);
     set_motion_flag(m, EMCMOT_MOTION_ENABLE_BIT, 0);
@@ -122,8 +121,7 @@ static void enable(struct motion *m)
         simple_tp_adopt(&jt->free_tp, jt->pos_cmd, 0.0, 0.0);
         if (is_active(jt))
             set_joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT, 1);
-        if (!get_home_is_idle(j))
-            do_cancel_homing(j);
+        do_cancel_homing(j); /* also of a joint whose turn has not come */
         set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 0);
     }
     if (is_teleop(m))

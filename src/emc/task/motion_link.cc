@@ -255,8 +255,8 @@ int MotionLink::set_homing_params(const EMC_JOINT_SET_HOMING_PARAMS &p) {
     if (p.locking_indexer) c.flags |= HOME_UNLOCK_FIRST;
     if (p.absolute_encoder) {
         c.flags |= HOME_ABSOLUTE_ENCODER;
-        if (p.absolute_encoder == 1) c.flags |= HOME_NO_FINAL_MOVE | HOME_NO_REHOME;
-        if (p.absolute_encoder == 2) c.flags |= HOME_NO_REHOME;
+        if (p.absolute_encoder == 1) c.flags |= HOME_NO_REHOME;
+        if (p.absolute_encoder == 2) c.flags |= HOME_NO_REHOME | HOME_NO_FINAL_MOVE;
     }
     return send(c);
 }

@@ -40,7 +40,7 @@ GROUPS = {
     "Pulses and encoders": "stepgen pwmgen siggen encoder counter encoder_ratio",
     "Spindles and tools": "spindle gearchange spindle_monitor orient carousel boss_plc",
     "Joints and axes": "gantry anglejog eoffset_per_angle moveoff",
-    "Simulation and tests": """sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_parport sphereprobe
+    "Simulation and tests": """sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_joint sim_parport sphereprobe
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
