@@ -12,3 +12,10 @@ $(eval $(call rtmodule,limitcheck,src/emc/motion/limitcheck.c))
 USRMOT_SOURCES := src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c
 $(eval $(call pymodule,kerf_motion,src/emc/motion/usr/kerf_motion.cc $(USRMOT_SOURCES) src/emc/posemath/emcpose.c,linuxcnchal))
 $(eval $(call program,motion-logger,src/emc/motion/usr/motion_logger.c $(USRMOT_SOURCES),linuxcnchal))
+
+# Template of a user's homing module, built as a user builds it.
+MOTION_GEN := $(O)/gen/emc/motion
+$(MOTION_GEN)/homecomp.c: src/emc/motion/homecomp.comp $(wildcard src/hal/utils/halcompile/*.py)
+	$(call say,HALCOMPILE,$<)
+	$(Q)mkdir -p $(@D) && $(HALCOMPILE) --preprocess --output-dir=$(@D) $<
+$(eval $(call rtmodule,homecomp,$(MOTION_GEN)/homecomp.c))

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+import kerf_motion as km
+from rig import Report, Rig
+
+r = Report()
+for name in ("homecomp", "kerf_test_home_plain"):
+    m = Rig(3, homemod=name, hw={"all": dict(home_from=10)})
+    r.check(m.get(f"{name.replace('_', '-')}.is-module"), f"{name}: is-module")
+    m.enable()
+    m.sleep(0.01)
+    r.check(m.homed() and m.get("motion.is-all-homed"), f"{name}: allow-sim-homed")
+    m.mode(km.TELEOP)
+    m.set("motion.allow-sim-homed", 0)
+    m.sleep(0.01)
+    r.check(not any(m.homed(j) for j in range(3)), f"{name}: homed without switches")
+    m.mode(km.FREE)
+    m.ask_home()
+    m.sleep(0.3)
+    r.check(not m.homing() and m.at(0) == 0, f"{name}: moves")
+    for j in range(3):
+        m.hw(j, stuck=1)
+    m.sleep(0.01)
+    r.check(m.homed(), f"{name}: homed by switches")
+    m.close()
+
+USUAL = dict(search_vel=20.0, latch_vel=2.0, offset=3.0, home=1.0)
+m = Rig(3, homemod="kerf_test_home_custom", hw={"all": dict(home_from=10)}, home={"all": USUAL})
+m.enable()
+m.set("joint.1.request-custom-homing", 1)
+seen, ok = m.run_home(1)
+r.check(ok and "SEARCH_WAIT" not in seen[1] and m.get("joint.1.is-custom-homing"), f"custom homing {seen[1]}")
+r.check(m.at(1) == 0 and m.get("joint.1.pos-cmd") == 3.0, "custom homing moves")
+m.set("joint.1.request-custom-homing", 0)
+seen, ok = m.run_home(0)
+r.check(ok and "RISE_WAIT" in seen[0] and not m.get("joint.0.is-custom-homing"), f"usual homing {seen[0]}")
+r.near(m.get("joint.0.pos-cmd"), 1.0, "usual homing")
+m.unhome(1)
+seen, ok = m.run_home(1)
+r.check(ok and "RISE_WAIT" in seen[1] and not m.get("joint.1.is-custom-homing"), f"usual homing later {seen[1]}")
+r.check(not m.violations(), str(m.violations()))
+m.close()
+r.finish()
