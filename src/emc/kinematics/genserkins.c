@@ -169,8 +169,8 @@ static int inverse(const EmcPose *world, double *joint, const KINEMATICS_INVERSE
             continue;
         for (int i = 0; i < LINKS; i++) {
             joint[i] = theta[i] * TO_DEG;
-            if (i > 0)
-                joint[i] += hal_get_si32(pins->unrotate[i]) * joint[i - 1];
+            if (i > 0) /* the turn of the link before, not its motor's: what forward takes away */
+                joint[i] += hal_get_si32(pins->unrotate[i]) * theta[i - 1] * TO_DEG;
         }
         joint[6] = world->u;
         joint[7] = world->v;

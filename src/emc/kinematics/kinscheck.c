@@ -10,6 +10,8 @@
  *           tolerance=P      allowed difference in 1e-9 units (default 1000)
  *           joint_tolerance=P  the same for joints, default: tolerance (close to singular
  *                            points two solutions may lie closer than the seed)
+ *           show=N           also print the first N points: joints and the pose that forward gives,
+ *                            or pose and the joints that inverse gives (default 0)
  * Out:    one line of text: points, refused points, worst differences, first bad point;
  *         the load fails when there is a bad one
  * Thread: init
@@ -48,6 +50,8 @@ static int tolerance = 1000;
 RTAPI_MP_INT(tolerance, "allowed difference, 1e-9 units");
 static int joint_tolerance = 0;
 RTAPI_MP_INT(joint_tolerance, "allowed difference of joints, 1e-9 units");
+static int show = 0;
+RTAPI_MP_INT(show, "points to print");
 
 #define MAX_VALUES EMCMOT_MAX_JOINTS
 
@@ -126,6 +130,25 @@ static void note(const double *v, double pose, double joint, int refused)
             check.first_bad[i] = v[i];
 }
 
+static void print_values(const char *what, const double *v, int n)
+{
+    rtapi_print("%s", what);
+    for (int i = 0; i < n; i++)
+        rtapi_print(" %.15g", v[i]);
+}
+
+static void show_point(const double *joint, const EmcPose *pose)
+{
+    double p[EMCMOT_MAX_AXIS];
+    if (check.done >= show)
+        return;
+    for (int i = 0; i < EMCMOT_MAX_AXIS; i++)
+        p[i] = emcPoseGetAxis(pose, i);
+    print_values("joints", joint, EMCMOT_MAX_AXIS);
+    print_values(" pose", p, EMCMOT_MAX_AXIS);
+    rtapi_print("\n");
+}
+
 static void check_joints(void)
 {
     double q[EMCMOT_MAX_JOINTS] = {0}, back[EMCMOT_MAX_JOINTS] = {0}, joint = 0.0;
@@ -137,6 +160,7 @@ static void check_joints(void)
         check.refused++;
         return;
     }
+    show_point(q, &pose);
     for (int i = 0; i < check.count; i++)
         back[i] = near_value(i, q[i]);
     int r = kinematicsInverse(&pose, back, &iflags, &fflags);
@@ -158,6 +182,7 @@ static void check_pose(void)
         check.refused++;
         return;
     }
+    show_point(q, &pose);
     back = pose;
     for (int i = 0; i < check.count && i < EMCMOT_MAX_AXIS; i++)
         *emcPoseAxis(&back, i) = near_value(i, v[i]);
