@@ -5,6 +5,7 @@
 #   make            everything, run in place: bin/ lib/ rtlib/ include/
 #   make sanitize   the same with ASan and UBSan, into sanitize/
 #   make bench      measurements (never part of the tests)
+#   make fuzz       libFuzzer programs, into objects/fuzz (needs clang)
 #   make install DESTDIR=...    the documented installed layout
 #   make V=1        shows the commands
 
@@ -115,6 +116,7 @@ endef
 # BENCHES (targets of `make bench`), INSTALL_HOOKS (targets run by `make install`).
 RULES := $(sort $(shell find src -name rules.mk))
 include $(RULES)
+include src/hal/test/fuzz.mk
 
 PUBLIC := $(addprefix $(T)/include/,$(notdir $(PUBLIC_HEADERS)))
 define public_header

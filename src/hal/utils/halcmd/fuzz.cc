@@ -2,8 +2,8 @@
  *
  * fuzz.cc - any bytes as a .hal file: nothing may crash, and what comes out keeps its promises.
  *
- * With clang: tests/fuzz/halcmd/build makes a libFuzzer program of it. Without, the small
- * main() below runs files of a corpus: bin/../objects/test/halcmd-fuzz FILE...
+ * `make fuzz` makes a libFuzzer program of it (clang); objects/test/halcmd-fuzz FILE... runs
+ * the files of a corpus (tests/fuzz/halcmd).
  * With KERF_FUZZ_HAL=1 the commands are also given to HAL (an instance of its own is
  * advised), but those that start or end programs or touch files.
  */
@@ -118,14 +118,14 @@ Session *with_hal(Channels &channels)
         asked = true;
         if (getenv("KERF_FUZZ_HAL")) {
             rtapi_set_msg_level(RTAPI_MSG_NONE);
-            auto *s = new Session;
-            s->channels = &channels;
-            promise(s->attach() == 0, "HAL can be used");
-            session = s;
+            static Session s; // gives HAL back at the end of the program
+            s.channels = &channels;
+            promise(s.attach() == 0, "HAL can be used");
+            session = &s;
             for (const char *c : {"newsig a bit", "newsig b float", "newsig c s32"}) {
                 std::vector<std::string> tokens;
                 parse(c, tokens);
-                s->run(tokens);
+                s.run(tokens);
             }
         }
     }
@@ -163,23 +163,3 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     return 0;
 }
-
-#ifndef KERF_LIBFUZZER
-int main(int argc, char **argv)
-{
-    for (int i = 1; i < argc; i++) {
-        FILE *f = fopen(argv[i], "rb");
-        if (!f) {
-            perror(argv[i]);
-            return 1;
-        }
-        std::string data;
-        char buffer[4096];
-        for (size_t n; (n = fread(buffer, 1, sizeof buffer, f)) > 0;) data.append(buffer, n);
-        fclose(f);
-        LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t *>(data.data()), data.size());
-    }
-    printf("%d files: no promise broken\n", argc - 1);
-    return 0;
-}
-#endif

@@ -4,11 +4,3 @@ HALCMD_DIR := src/hal/utils/halcmd
 HALCMD_CORE := $(addprefix $(HALCMD_DIR)/,text.cc session.cc table.cc format.cc config.cc load.cc \
 	rtapi_client.cc snapshot.cc show.cc save.cc json.cc graph.cc complete.cc)
 $(eval $(call program,halcmd,$(HALCMD_DIR)/main.cc $(HALCMD_CORE),linuxcnchal linuxcncini $(if $(filter yes,$(HAVE_READLINE)),-lreadline)))
-
-# Test program of tests/halcmd: objects/test/halcmd-fuzz FILE... runs a corpus.
-HALCMD_FUZZ_OBJECTS := $(call objs,ul,$(HALCMD_DIR)/fuzz.cc $(HALCMD_CORE))
-DEPS += $(patsubst %.o,%.d,$(call objs,ul,$(HALCMD_DIR)/fuzz.cc))
-$(O)/test/halcmd-fuzz: $(HALCMD_FUZZ_OBJECTS) $(T)/lib/liblinuxcnchal.so $(T)/lib/liblinuxcncini.so
-	$(call say,LINK,$@)
-	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $(HALCMD_FUZZ_OBJECTS) -L$(T)/lib -llinuxcnchal -llinuxcncini -Wl,-rpath,'$$ORIGIN/../../lib'
-EXTRA_TARGETS += $(O)/test/halcmd-fuzz

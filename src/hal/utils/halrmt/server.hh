@@ -13,6 +13,7 @@
 #include "../halcmd/session.hh"
 #include "inifile.hh"
 
+#include <csignal>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,6 +74,8 @@ class Server
     void check_jobs();
 };
 
+/// Set by a signal handler: the server ends.
+extern volatile sig_atomic_t ended;
 /// Executes one line of a client.
 void execute(Server &server, Connection &c, std::string line);
 /// Replies at the end of a job, good or bad.
