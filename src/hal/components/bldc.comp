@@ -125,9 +125,10 @@ static unsigned from_hall(unsigned table, unsigned code) {
     return 0;
 }
 
+/* Hall code for an excitation; for none (0) the lower of the two codes that are not used. */
 static unsigned to_hall(unsigned table, unsigned ph) {
-    int i;
-    for(i = 0; i < 6; i++) if(hall_excitation[i] == ph) return (unsigned)(hall_codes[table][i] - '0');
+    unsigned code;
+    for(code = 0; code < 8; code++) if(from_hall(table, code) == ph) return code;
     return 0;
 }
 
@@ -163,7 +164,7 @@ static rtapi_s64 counts_per_turn(struct __comp_state *__comp_inst) {
 
 static void found(struct __comp_state *__comp_inst, double measured) {
     offset_measured = (rtapi_s32)measured;
-    if((personality & (HALL | QUADRATURE)) == QUADRATURE) init_done = 1;
+    if(!(personality & (HALL | FANUC))) init_done = 1;
     in_type = 2;
 }
 
@@ -176,21 +177,16 @@ static int read_halls(struct __comp_state *__comp_inst) {
         return 0;
     }
     phases = from_hall(pattern, 4u * hall1 + 2u * hall2 + hall3);
-    for(i = 0; i < 7 && excitation[i] != phases; i++) {}
+    for(i = 0; i < 6 && excitation[i] != phases; i++) {}        /* a code that is not used: 1, wrapped to 0 */
     rotor_angle = wrapped(i / 6.0);
     phase_angle = wrapped(rotor_angle + (out_dir ? 0.25 : -0.25));
-    hall_error = (phases & old_phases) == 0;
+    if(!(phases & old_phases)) hall_error = 1;
     if(pattern != old_pattern) hall_error = 0;
     if(personality & TRAPEZOID) return 1;
     if(in_type == 5 && old_phases && phases != old_phases) {
-        for(i = 0; i < 6; i++) {
-            if(!((excitation[i] == phases && excitation[i + 1] == old_phases)
-                 || (excitation[i] == old_phases && excitation[i + 1] == phases))) continue;
-            rotor_angle = wrapped((i + 0.5) / 6);
-            phase_angle = wrapped(rotor_angle + (out_dir ? -0.25 : 0.25));
-            found(__comp_inst, (double)counts - rotor_angle * (double)counts_per_turn(__comp_inst));
-            break;
-        }
+        if(phases) rotor_angle = wrapped((i + (excitation[i ? i - 1 : 5] == old_phases ? -0.5 : 0.5)) / 6);
+        phase_angle = wrapped(rotor_angle + (out_dir ? -0.25 : 0.25));
+        found(__comp_inst, (double)counts - rotor_angle * (double)counts_per_turn(__comp_inst));
     } else if(in_type == (HALL | QUADRATURE | INDEX) && !index_enable) {
         found(__comp_inst, (double)counts);
     }
@@ -200,20 +196,21 @@ static int read_halls(struct __comp_state *__comp_inst) {
 }
 
 static void read_fanuc(struct __comp_state *__comp_inst) {
-    int code = C1 | C2 << 1 | C4 << 2 | C8 << 3, gray = code;
-    code ^= code >> 2;
+    int gray = C1 | C2 << 1 | C4 << 2 | C8 << 3, code = gray ^ gray >> 2;
     code ^= code >> 1;
     rotor_angle = code / 16.0 + 0.03125;
-    phase_angle = wrapped(rotor_angle + (out_dir ? -0.25 : 0.25));
     if(!(personality & TRAPEZOID)) {
-        if(in_type == (FANUC | QUADRATURE) && old_code && gray != old_code - 1) {
-            rotor_angle = wrapped((code + 1) / 16.0);
+        if(in_type == (FANUC | QUADRATURE) && old_code && gray != old_code) {
+            /* The upper edge, but for the codes that happen to be a drive pattern. */
+            int lower = code == 0 || (code <= 8 && excitation[code - 1] == old_code);
+            rotor_angle = wrapped((code + !lower) / 16.0);
             found(__comp_inst, (double)counts - rotor_angle * (double)counts_per_turn(__comp_inst));
         } else if(in_type == (FANUC | QUADRATURE | INDEX) && !index_enable) {
             found(__comp_inst, (double)counts);
         }
     }
-    old_code = gray + 1;
+    phase_angle = wrapped(rotor_angle + (out_dir ? -0.25 : 0.25));
+    old_code = gray;
 }
 
 /* Pulls the rotor to a known place; false when the call must end. */
@@ -296,10 +293,10 @@ static int read_input(struct __comp_state *__comp_inst, double *drive, double dt
         return index_init(__comp_inst, drive, dt);
     case 0x03: case 0x0B: case 0x0A:
         bad_input(__comp_inst, 2);
-        return 1;
+        return 0;
     case 0x09:
         bad_input(__comp_inst, 1);
-        return 1;
+        return 0;
     default:
         bad_input(__comp_inst, -2);
         return 0;

@@ -237,14 +237,18 @@ static void turn(struct __comp_state *__comp_inst, int forward) {
     motor_dir = forward ? 1 : -1;
 }
 
-/* Starts the move to a pocket the shorter way. */
+/* Starts the move to a pocket the shorter way. The position may be beyond the
+ * last pocket (sensors can show any number). */
 static void choose_way(struct __comp_state *__comp_inst, int goal) {
     int way = goal - current_position, pocket_count = number_of_pockets;
     if(both_ways) {
-        if(way > 0 && way > pocket_count / 2) way -= pocket_count;
-        else if(way < 0 && -way > pocket_count / 2) way += pocket_count;
+        int forward = way > 0;
+        if(abs(way) > pocket_count / 2) {
+            way += forward ? -pocket_count : pocket_count;
+            forward = !forward;
+        }
         counts_target += (double)way * scale;
-        turn(__comp_inst, way > 0);
+        turn(__comp_inst, forward);
     } else {
         counts_target += (double)way * scale;
         if(counts_target < counts) counts_target += (double)scale * pocket_count;

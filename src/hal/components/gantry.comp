@@ -36,9 +36,9 @@ FUNCTION(read) {
     int i, all = joint_home(0), any = joint_home(0);
     for(i = 1; i < personality; i++) {
         all = latching ? all || joint_home(i) : all && joint_home(i);
+        latching = all;
         any = any || joint_home(i);
     }
-    latching = all;
     home = all;
     limit = any;
     if(joint_home(fb_joint) && !all) {

@@ -24,12 +24,12 @@ if(speed < 0) {
 if(!(scale2 >= 1)) scale2 = 1;
 if(sel) {
     if(speed < min2) speed = min2;
-    if(speed > max2) speed = max2;
+    else if(speed > max2) speed = max2;
     speed_out = sign * speed / scale2;
     dir_out = dir_in != reverse;
 } else {
     if(speed < min1) speed = min1;
-    if(speed > max1) speed = max1;
+    else if(speed > max1) speed = max1;
     speed_out = sign * speed;
     dir_out = dir_in;
 }

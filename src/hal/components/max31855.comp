@@ -25,9 +25,10 @@ include <rtapi_math.h>;
 ;;
 #define CONVERTERS 15
 #define FIRST_BIT 32                    /* one before the word, without meaning */
+#define PAUSE (2 * FIRST_BIT + 1)       /* calls between readings, as many as a reading takes */
 
 typedef struct {
-    int begun, bit, calls, wait;
+    int begun, bit, wait;
     rtapi_u32 word[CONVERTERS];
     unsigned char told[CONVERTERS];
 } converter_state;
@@ -86,8 +87,8 @@ static void evaluate(struct __comp_state *__comp_inst, int i) {
     rtapi_u32 word = data.word[i];
     double raw = ((rtapi_s32)word >> 18) * 0.25;
     double inside = ((rtapi_s32)(word << 16) >> 20) * 0.0625, celsius;
-    fault(i) = (word >> 16) & 1;
     fault_flags(i) = word & 7;
+    fault(i) = fault_flags(i) != 0;
     if(fault(i)) {
         if(!data.told[i])
             rtapi_print_msg(RTAPI_MSG_ERR, "max31855: sensor %d detected fault %x\n", i, (unsigned)(word & 7));
@@ -107,16 +108,15 @@ FUNCTION(bitbang_spi) {
     if(!data.begun) {
         data.begun = 1;
         data.bit = FIRST_BIT;
+        return;
     }
     if(cs_out) {
         if(--data.wait <= 0) {
             cs_out = 0;
             data.bit = FIRST_BIT;
-            data.calls = 0;
         }
         return;
     }
-    data.calls++;
     if(!clk_out) return;
     for(i = 0; i < personality; i++) {
         if(data.bit == FIRST_BIT) data.word[i] = 0;
@@ -125,5 +125,5 @@ FUNCTION(bitbang_spi) {
     if(data.bit-- > 0) return;
     for(i = 0; i < personality; i++) evaluate(__comp_inst, i);
     cs_out = 1;
-    data.wait = data.calls;
+    data.wait = PAUSE;
 }

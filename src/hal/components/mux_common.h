@@ -81,7 +81,9 @@ static inline int mux_parse(struct mux *m, const char *text, const char *module,
         rtapi_print_msg(RTAPI_MSG_ERR, "%s: No type specifiers in fmt string\n", module);
         return -EINVAL;
     }
+    /* Selection bits: for a power of two of entries, or one entry more. */
     for(m->bits = 0; 1 << (m->bits + 1) <= m->entries; m->bits++) {}
+    if(1 << m->bits != (m->entries & ~1)) m->bits = 0;
     return 0;
 }
 
