@@ -224,6 +224,7 @@ private:
     void jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints, std::vector<Bit> &select,
                    std::vector<hal_bit_t **> &lamps, const std::vector<int> &present);
     void mdi();
+    void release();
     bool refresh() {
         if (client_->status_channel().peek() == EMC_STAT_TYPE) stat_ = *client_->status_channel().get<EMC_STAT>();
         return client_->status_channel().valid();
@@ -539,18 +540,18 @@ void Halui::commands() {
 void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints, std::vector<Bit> &select,
                       std::vector<hal_bit_t **> &lamps, const std::vector<int> &present) {
     int current = static_cast<int>(**number);
+    bool active = joints ? stat_.motion.traj.mode != EMC_TRAJ_MODE_TELEOP : stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP;
     for (int n : present) {
         if (!select[static_cast<size_t>(n)].rose()) continue;
         **number = static_cast<rtapi_u32>(n);
         for (int k : present) **lamps[static_cast<size_t>(k)] = k == n;
-        if (selected.held()) { // the button stays down: the jog goes over to the new one
+        if (active && selected.held()) { // the button stays down: the jog goes over to the new one
             for (int k : present)
                 if (k != n && !all[static_cast<size_t>(k)].held()) jog_stop(k, joints);
             if (n != current) jog_cont(n, selected.plus.now() ? speed.now() : -speed.now(), joints);
         }
         current = n;
     }
-    bool active = joints ? stat_.motion.traj.mode != EMC_TRAJ_MODE_TELEOP : stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP;
     bool faster = speed.changed();
     auto one = [&](Jog &j, int n) {
         int plus = j.plus.edge(), minus = j.minus.edge(), inc_plus = j.increment_plus.edge(), inc_minus = j.increment_minus.edge();
@@ -671,6 +672,19 @@ void Halui::run() {
         show();
         kerf_clock_sleep_ns(PERIOD_NS);
     }
+    release();
+}
+
+// Nobody is left to let go of the buttons: what they keep moving stops.
+void Halui::release() {
+    auto all = [&](std::vector<Jog> &jogs, const Jog &selected, hal_u32_t **number, const Real &deadband, bool joints) {
+        for (size_t n = 0; n < jogs.size(); n++)
+            if (jogs[n].held() || std::fabs(jogs[n].analog.now()) > deadband.now() || (selected.held() && **number == n)) jog_stop(static_cast<int>(n), joints);
+    };
+    refresh();
+    if (stat_.task.mode != EMC_TASK_MODE_MANUAL || stat_.task.state != EMC_TASK_STATE_ON) return;
+    if (stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP) all(axis_jog_, axis_selected_jog_, axis_selected_, axis_deadband_, false);
+    else all(joint_jog_, joint_selected_jog_, joint_selected_, joint_deadband_, true);
 }
 
 } // namespace
