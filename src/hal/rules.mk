@@ -37,3 +37,14 @@ $(O)/test/hal-api: $(HAL_API_OBJECTS) $(T)/lib/liblinuxcnchal.so
 	$(Q)mkdir -p $(@D) && $(CC) $(SAN) $(LDFLAGS) -o $@ $(HAL_API_OBJECTS) -L$(T)/lib -llinuxcnchal -lpthread -Wl,-rpath,'$$ORIGIN/../../lib'
 DEPS += $(HAL_API_OBJECTS:.o=.d)
 EXTRA_TARGETS += $(O)/test/hal-api
+
+# Measurements, part of `make bench`.
+HAL_BENCH_OBJECTS := $(call objs,ul,src/hal/test/hal_bench.c)
+DEPS += $(HAL_BENCH_OBJECTS:.o=.d)
+$(O)/test/hal-bench: $(HAL_BENCH_OBJECTS) $(T)/lib/liblinuxcnchal.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CC) $(SAN) $(LDFLAGS) -o $@ $(HAL_BENCH_OBJECTS) -L$(T)/lib -llinuxcnchal -Wl,-rpath,'$$ORIGIN/../../lib'
+.PHONY: bench-hal
+bench-hal: $(O)/test/hal-bench
+	/usr/bin/python3 src/hal/test/hal-bench.py $(T)
+BENCHES += bench-hal
