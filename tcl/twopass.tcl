@@ -305,18 +305,21 @@ proc ::tp::set_commands {how} {
             }
         }
     }
-    # The command hal itself does nothing in pass 0, but for the questions that it may be asked.
+    # The command hal itself does the same as the commands: in pass 0 nothing but questions and the
+    # substitutes, in pass 1 all but loading.
+    if {[info commands ::tp::real_hal] eq ""} { rename ::hal ::tp::real_hal }
     if {$how == 0} {
-        rename ::hal ::tp::real_hal
         proc ::hal {args} {
             if {[lindex $args 0] in {list show getp ptype stype --commands}} { return [::tp::real_hal {*}$args] }
             if {[lindex $args 0] in {loadrt loadusr addf}} {
                 return [::tp::[lindex $args 0]_substitute {*}[lrange $args 1 end]]
             }
         }
-    } elseif {[info commands ::tp::real_hal] ne ""} {
-        rename ::hal {}
-        rename ::tp::real_hal ::hal
+    } else {
+        proc ::hal {args} {
+            if {[lindex $args 0] in {loadrt loadusr}} return
+            uplevel 1 [list ::tp::real_hal {*}$args]
+        }
     }
 }
 
@@ -360,14 +363,13 @@ proc ::tp::main {} {
     set before [hal list comp]
     set pass 0
     set_commands 0
-    # During pass 0 our own loading must reach HAL.
+    # Our own loading must reach HAL.
     interp alias {} ::tp::hal {} ::tp::real_hal
     source_files
     if {[catch load_modules message]} {
         puts stderr "twopass: Error in pass 0:\n    $message"
         finish 1
     }
-    interp alias {} ::tp::hal {}
     set pass 1
     foreach name [array names ::HAL] { unset ::HAL($name) }
     foreach section [emc_ini_sections] { catch { uplevel #0 [list array unset $section] } }

@@ -202,8 +202,10 @@ proc sim_spindle {} {
     return
 }
 
-# Writes the HAL commands that would make the present state again.
+# Writes the HAL commands that would make the present state again (not in the first pass of
+# TWOPASS, when there is none yet).
 proc save_hal_cmds {savefile {options ""}} {
+    if {[llength [info commands ::tp::passnumber]] && [::tp::passnumber] == 0} return
     set how [expr {[llength $::HAL(HALFILE)] > 1 ? "allu" : "all"}]
     if {[catch {
         set out [open $savefile w]

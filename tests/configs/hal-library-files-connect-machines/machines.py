@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Writes small machines, one folder each, that are put together from files of the HAL library."""
+import sys
+from pathlib import Path
+
+AXIS = """
+[AXIS_{letter}]
+MIN_LIMIT = -10
+MAX_LIMIT = 10
+MAX_VELOCITY = 5
+MAX_ACCELERATION = 50
+"""
+JOINT = """
+[JOINT_{n}]
+TYPE = LINEAR
+MIN_LIMIT = -10.001
+MAX_LIMIT = 10.001
+MAX_VELOCITY = 5
+MAX_ACCELERATION = 50
+FERROR = 0.5
+MIN_FERROR = 0.1
+HOME = 0
+HOME_OFFSET = {offset}
+HOME_SEARCH_VEL = {search}
+HOME_LATCH_VEL = {latch}
+HOME_SEQUENCE = {sequence}
+"""
+SERVO = """INPUT_SCALE = 4000
+DRIVE_RATIO = 1
+MOTOR_PPR = 1000
+PGAIN = 40
+IGAIN = 0
+DGAIN = 0
+BIAS = 0
+FF0 = 0
+FF1 = 1
+FF2 = 0
+DEADBAND = 0
+MIN_HARD_LIMIT = -11
+MIN_HARD_LIMIT_RELEASE = -10.9
+MAX_HARD_LIMIT = 11
+MAX_HARD_LIMIT_RELEASE = 10.9
+HOME_SW_MIN = 0.5
+HOME_SW_MAX = 0.7
+"""
+
+
+def machine(name, hal, letters="XYZ", kins=None, extra="", joint_extra="", home=(0, 0, 0), base=0, spindles=1, motmod=""):
+    """One folder with NAME.ini; hal: lines of [HAL]; home: offset, search and latch velocity of every joint."""
+    folder = Path(name)
+    folder.mkdir()
+    joints = "".join(JOINT.format(n=n, offset=home[0], search=home[1], latch=home[2],
+                                  sequence=0 if home[1] == 0 else 1 + n) + joint_extra
+                     for n in range(len(letters)))
+    axes = "".join(AXIS.format(letter=letter) for letter in dict.fromkeys(letters))
+    (folder / f"{name}.ini").write_text(f"""[EMC]
+VERSION = 1.1
+MACHINE = {name}
+[DISPLAY]
+DISPLAY = axis
+[TASK]
+TASK = milltask
+CYCLE_TIME = 0.001
+[RS274NGC]
+PARAMETER_FILE = sim.var
+[EMCMOT]
+EMCMOT = motmod{motmod}
+SERVO_PERIOD = 1000000
+BASE_PERIOD = {base}
+[EMCIO]
+TOOL_TABLE = tool.tbl
+[HAL]
+HALUI = halui
+{hal}
+[TRAJ]
+COORDINATES = {letters}
+SPINDLES = {spindles}
+LINEAR_UNITS = inch
+ANGULAR_UNITS = degree
+MAX_LINEAR_VELOCITY = 5
+DEFAULT_LINEAR_VELOCITY = 1
+[KINS]
+KINEMATICS = {kins or 'trivkins coordinates=' + letters.lower()}
+JOINTS = {len(letters)}
+{extra}
+{axes}
+{joints}
+""")
+    (folder / "tool.tbl").write_text("T1 P1 D0.125 Z0.5 ;mill\n")
+
+
+SIM = "HALFILE = LIB:basic_sim.tcl\n"
+machine("plain", SIM)
+machine("nine", SIM + "HALFILE = LIB:locking_indexer.hal", "XYZABCUVW", motmod=" unlock_joints_mask=0x10")
+machine("pass2", "TWOPASS = verbose\n" + SIM + "HALFILE = LIB:halcheck.tcl nopopup")
+machine("wheel", SIM + "HALFILE = LIB:wheeljogpins.tcl 0.25\nHALCMD = getp axis.y.jog-scale\nHALCMD = getp joint.2.jog-enable")
+for twopass in ("", "TWOPASS = on\n"):
+    machine("moveoff" + ("2" if twopass else ""), twopass + SIM +
+            "HALFILE = LIB:hookup_moveoff.tcl\nHALFILE = LIB:moveoff_external.hal\n"
+            "HALCMD = getp mv.offset-vel-1\nHALCMD = getp mv.offset-max-2\nHALCMD = getp mv.epsilon",
+            extra="[MOVEOFF]\nEPSILON = 0.002\n[MOVEOFF_2]\nMAX_LIMIT = 3\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\nMIN_LIMIT = -3")
+for twopass in ("", "TWOPASS = on\n"):
+    machine("plasma" + ("2" if twopass else ""), twopass + SIM +
+            "HALFILE = LIB:plasmac.tcl\nHALCMD = getp plasmac.axis-y-max-limit\nHALCMD = getp plasmac.units-per-mm", "XYYZ",
+            kins="trivkins coordinates=xyyz kinstype=both", spindles=3, motmod=" num_spindles=3")
+machine("qtplasma", SIM + "HALFILE = LIB:qtplasmac_comp.hal", "XYYZ", kins="trivkins coordinates=xyyz kinstype=both", spindles=3, motmod=" num_spindles=3")
+machine("servo", "HALFILE = LIB:servo_sim.hal", joint_extra=SERVO, home=(0.5, 1, -0.1), base=50000, kins="trivkins")
+machine("show", SIM + "HALFILE = LIB:var_show.tcl")
+machine("check", "HALFILE = LIB:core_sim.hal\nHALFILE = LIB:simulated_home.hal\nHALFILE = loose.hal\nHALFILE = LIB:halcheck.tcl nopopup",
+        kins="trivkins", base=50000)
+Path("check/loose.hal").write_text("loadrt and2\nnet alone and2.0.in0\nnet silent <= and2.0.out\n")
+sys.exit(0)
