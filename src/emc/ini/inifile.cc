@@ -141,6 +141,7 @@ class Parser
     void warning(const char *format, ...) __attribute__((format(printf, 2, 3)));
     bool line(std::string_view text);
     bool include(std::string_view rest);
+    bool name_ok(const char *kind, const std::string &name);
     bool section(std::string_view text);
     bool variable(std::string_view text);
     bool unescape(std::string_view in, std::string &result);
@@ -279,14 +280,25 @@ bool Parser::include(std::string_view rest)
     return parse_file(name);
 }
 
+// Older configurations have names such as start-pause, 4th or home.x: they are taken, with a warning.
+bool Parser::name_ok(const char *kind, const std::string &name)
+{
+    if (identifier_ok(name) && !is_digit(name[0])) return true;
+    std::string plain = name;
+    for (char &c : plain)
+        if (c == '-' || c == '.') c = '_';
+    if (!identifier_ok(plain)) return false;
+    warning("Unusual %s '%s': letters, digits and underscores, no digit first, are understood everywhere", kind, name.c_str());
+    return true;
+}
+
 bool Parser::section(std::string_view text)
 {
     auto close = text.find(']');
     if (close == text.npos) return error("Invalid section. Missing ']'");
     std::string name(trimmed(text.substr(1, close - 1)));
     if (name.empty()) return error("Invalid section. No content between '[' and ']'");
-    if (is_digit(name[0])) return error("Invalid section '%s'. Cannot start with a digit", name.c_str());
-    if (!identifier_ok(name)) return error("Invalid section '%s'. Identifier contains invalid character(s)", name.c_str());
+    if (!name_ok("section", name)) return error("Invalid section '%s'. Identifier contains invalid character(s)", name.c_str());
     std::string_view rest = trimmed(text.substr(close + 1));
     if (!rest.empty() && rest[0] != '#' && rest[0] != ';') warning("Section header has trailing content, ignored");
     if (std::find(out.sections.begin(), out.sections.end(), name) != out.sections.end())
@@ -303,8 +315,7 @@ bool Parser::variable(std::string_view text)
     std::string name(trimmed(text.substr(0, equals)));
     if (equals == text.npos) return error("Invalid tag '%s'. Expected '=' after tag identifier", name.c_str());
     if (name.empty()) return error("Invalid tag. Missing identifier before '='");
-    if (is_digit(name[0])) return error("Invalid tag '%s'. Tag identifiers cannot start with a digit", name.c_str());
-    if (!identifier_ok(name)) return error("Invalid tag name '%s'. Identifier contains invalid character(s)", name.c_str());
+    if (!name_ok("tag", name)) return error("Invalid tag name '%s'. Identifier contains invalid character(s)", name.c_str());
     if (current.empty()) return error("Tag '%s' found without prior section definition", name.c_str());
     std::string value;
     if (!unescape(trimmed(text.substr(equals + 1)), value)) return false;
