@@ -7,7 +7,7 @@ DOC        := $(prefix)/share/doc/linuxcnc
 INST       := install -m 644
 INST_EXE   := install -m 755
 # Programs in scripts/ that an installed system has too.
-USER_SCRIPTS := linuxcnc axis linuxcnc_check_ini linuxcnc_var linuxcnc_info kerf-run runtests \
+USER_SCRIPTS := linuxcnc axis linuxcnc_check_ini linuxcnc_var linuxcnc_info linuxcncmkdesktop kerf-run runtests \
                 halrun halcmd_twopass haltcl halreport hal-histogram latency-test latency-histogram latency-plot update_ini
 copy_tree = mkdir -p $(DESTDIR)$(2) && cp -rP $(1)/. $(DESTDIR)$(2)/ && find $(DESTDIR)$(2) -name __pycache__ -prune -exec rm -rf {} +
 

@@ -580,10 +580,10 @@ def find_ini(options, tree):
         if not path:
             raise Failure("Could not find a last used configuration: start with an INI file first")
     if path is None:
-        picker = tree.tcl / "bin/pickconfig.tcl"
-        if not picker.exists() or not os.environ.get("DISPLAY"):
+        if not os.environ.get("DISPLAY"):
             raise Failure("No INI file given: use `linuxcnc FILE.ini` (the picker needs a display)")
-        done = subprocess.run(["wish8.6", str(picker)], env=tree.environment(), stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([sys.executable, "-m", "kerf.pickconfig"], env=tree.environment() |
+                              {"PYTHONPATH": str(tree.python)}, stdout=subprocess.PIPE, text=True)
         path = done.stdout.strip()
         if not path:
             sys.exit(0)

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The picker: a window with the configurations; prints the chosen path on standard output.
+
+Cancel prints nothing. What can be picked and how it is copied is in `kerf.configs`.
+"""
+
+import os
+import sys
+import tkinter as tk
+from pathlib import Path
+from tkinter import messagebox, ttk
+
+from . import configs
+from .tree import Tree
+
+WELCOME = ("Pick the configuration of your machine and press OK.\n"
+           "Sample configurations are copied to your own folder first.")
+
+
+class Picker:
+    """The window. `chosen` is the path when it ended with OK, else None."""
+
+    def __init__(self, root, tree, start=None):
+        self.root, self.tree, self.chosen = root, tree, None
+        self.roots = configs.search_path(tree)
+        self.paths = {}
+        root.title("Pick a configuration")
+        root.geometry("780x480")
+        root.minsize(560, 360)
+        ttk.Style(root).theme_use("clam")
+        head = ttk.Label(root, text=WELCOME, padding=8)
+        head.pack(fill="x")
+        buttons = ttk.Frame(root, padding=8)
+        buttons.pack(side="bottom", fill="x")
+        self.shortcut = tk.BooleanVar(root, False)
+        ttk.Checkbutton(buttons, text="Create a shortcut on the desktop", variable=self.shortcut).pack(side="left")
+        ttk.Button(buttons, text="Cancel", command=root.destroy).pack(side="right", padx=(8, 0))
+        self.ok = ttk.Button(buttons, text="OK", command=self.accept, state="disabled")
+        self.ok.pack(side="right")
+        panes = ttk.PanedWindow(root, orient="horizontal")
+        panes.pack(fill="both", expand=True, padx=8)
+        self.list = self.make_list(panes)
+        self.picture, self.text = self.make_details(panes)
+        for folder in self.roots:
+            self.fill("", configs.Node(configs.title(folder, tree), folder,
+                                       configs.scan(folder, samples=folder == tree.configs)), opened=True)
+        self.select(start or next((p for p in (tree.configs / f"sim/{n}.ini" for n in ("axis/axis", "mill/mill")) if p.exists()), None))
+        self.list.bind("<<TreeviewSelect>>", lambda event: self.show())
+        for key in ("<Return>", "<KP_Enter>", "<Double-1>"):
+            self.list.bind(key, self.accept)
+        root.bind("<Escape>", lambda event: root.destroy())
+        self.list.focus_set()
+        self.show()
+
+    @staticmethod
+    def make_list(panes):
+        box = ttk.Frame(panes)
+        panes.add(box, weight=2)
+        tree = ttk.Treeview(box, show="tree", selectmode="browse")
+        bar = ttk.Scrollbar(box, command=tree.yview)
+        tree.configure(yscrollcommand=bar.set)
+        bar.pack(side="right", fill="y")
+        tree.pack(fill="both", expand=True)
+        return tree
+
+    @staticmethod
+    def make_details(panes):
+        box = ttk.Frame(panes)
+        panes.add(box, weight=3)
+        picture = ttk.Label(box, anchor="center")
+        picture.pack(fill="x")
+        bar = ttk.Scrollbar(box)
+        text = tk.Text(box, wrap="word", width=40, height=10, state="disabled", relief="flat", padx=8, pady=8, font="TkDefaultFont",
+                       yscrollcommand=bar.set)
+        bar.configure(command=text.yview)
+        bar.pack(side="right", fill="y")
+        text.pack(fill="both", expand=True)
+        return picture, text
+
+    def fill(self, parent, node, opened=False):
+        item = self.list.insert(parent, "end", text=node.name, open=opened)
+        self.paths[item] = node.path
+        for child in node.children:
+            self.fill(item, child)
+
+    def select(self, path):
+        """Selects a path, or the first file when it is not there."""
+        items = [i for i, p in self.paths.items() if p == path] or [i for i, p in self.paths.items() if configs.usable(p)]
+        if items:
+            self.list.see(items[0])
+            self.list.selection_set(items[0])
+            self.list.focus(items[0])
+
+    def selected(self):
+        items = self.list.selection()
+        return self.paths[items[0]] if items else None
+
+    def show(self):
+        path = self.selected()
+        text, picture = configs.details(path) if path else ("", None)
+        self.text.configure(state="normal")
+        self.text.delete("1.0", "end")
+        self.text.insert("end", text)
+        self.text.configure(state="disabled")
+        try:
+            self.image = tk.PhotoImage(file=str(picture)) if picture else ""
+        except tk.TclError:
+            self.image = ""
+        self.picture.configure(image=self.image)
+        self.ok.configure(state="normal" if path and configs.usable(path) else "disabled")
+
+    def accept(self, event=None):
+        path = self.selected()
+        if not path or not configs.usable(path):
+            return None
+        try:
+            if configs.needs_copy(path, self.tree) and messagebox.askyesno(
+                    "Copy the configuration", f"Would you like to copy {path.stem} to\n{configs.user_configs()}?\n"
+                    "You can change the copy; the original stays as it is.", parent=self.root):
+                path = configs.copy(path, self.tree, self.roots)
+                messagebox.showinfo("Copied", f"The configuration is now in\n{path.parent}", parent=self.root)
+            if self.shortcut.get():
+                configs.make_shortcut(path, self.tree)
+            configs.remember(path)
+        except OSError as e:
+            messagebox.showerror("Not possible", str(e), parent=self.root)
+            return "break"
+        self.chosen = path
+        self.root.destroy()
+        return "break"      # the list's own binding would look for a list that is gone
+
+
+def main(argv=()):
+    if not os.environ.get("DISPLAY"):
+        print("pickconfig: no display (DISPLAY is not set)", file=sys.stderr)
+        return 1
+    root = tk.Tk(className="Pickconfig")
+    picker = Picker(root, Tree.find(), Path(argv[0]) if argv else None)
+    root.mainloop()
+    if picker.chosen:
+        print(picker.chosen)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
