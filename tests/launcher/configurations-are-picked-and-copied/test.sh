@@ -43,7 +43,7 @@ linuxcncmkdesktop /x/mill.ini "My Mill" "at the window" | sed "s|Exec=.*/linuxcn
 linuxcncmkdesktop /x/a.demo Demo; linuxcncmkdesktop /x/a.txt Text; linuxcncmkdesktop 2>&1; echo "=> $?"
 linuxcnc_info -s; grep -c -E '^ +(date|release|LINUXCNCVERSION|RTS): .' /tmp/linuxcnc_info.txt
 echo "# window"
-xvfb-run -a /usr/bin/python3 - <<'END'
+../../../lib/with-display /usr/bin/python3 - <<'END'
 import dataclasses, tkinter as tk
 from pathlib import Path
 from unittest import mock
