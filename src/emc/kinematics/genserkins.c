@@ -17,6 +17,7 @@
 #define MAX_ITERATIONS 1000
 #define CONVERGED 1e-7        /* rad: last correction, quadratic convergence leaves less */
 #define MAX_STEP 0.5          /* rad in one iteration */
+#define UNMOVED 1e-11         /* rad: below any encoder; joints at rest stay exactly where they are */
 
 static struct {
     hal_real_t A[LINKS], ALPHA[LINKS], D[LINKS];
@@ -162,6 +163,12 @@ static int inverse(const EmcPose *world, double *joint, const KINEMATICS_INVERSE
             largest = fmax(largest, fabs(dj[i]));
         if (!isfinite(largest))
             return -1;
+        if (n == 1 && largest < UNMOVED) {
+            joint[6] = world->u;
+            joint[7] = world->v;
+            joint[8] = world->w;
+            return 0;
+        }
         double part = largest > MAX_STEP ? MAX_STEP / largest : 1.0;
         for (int i = 0; i < LINKS; i++)
             theta[i] += part * dj[i];
