@@ -60,11 +60,16 @@ def check_program(program, ini_path, env):
         if var.exists():
             shutil.copyfile(var, copy)
         startup = ini.get("RS274NGC", "RS274NGC_STARTUP_CODE")
-        result = gcode.load(str(program), str(copy), [startup] if startup else None,
-                            tools=read_tools(folder / (ini.get("EMCIO", "TOOL_TABLE") or "tool.tbl")),
-                            axis_mask=sum(1 << i for i, c in enumerate("XYZABCUVW") if c in letters),
-                            linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
-                            ini=str(ini_path))
+        program, there = Path(program).resolve(), Path.cwd()
+        os.chdir(folder)  # as task: the folder of relative SUBROUTINE_PATHs
+        try:
+            result = gcode.load(str(program), str(copy), [startup] if startup else None,
+                                tools=read_tools(folder / (ini.get("EMCIO", "TOOL_TABLE") or "tool.tbl")),
+                                axis_mask=sum(1 << i for i, c in enumerate("XYZABCUVW") if c in letters),
+                                linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
+                                ini=str(ini_path))
+        finally:
+            os.chdir(there)
     if result.error:
         raise RunError(result.fault["report"].rstrip())
 
