@@ -24,7 +24,7 @@ install: all $(INSTALL_HOOKS)
 	for f in lib/python/*; do case $$f in *.so|*__pycache__) ;; *) cp -r $$f $(DESTDIR)$(PY_SITE)/;; esac; done
 	find $(DESTDIR)$(PY_SITE) -name __pycache__ -prune -exec rm -rf {} +
 	$(INST) $(PUBLIC) $(DESTDIR)$(prefix)/include/linuxcnc
-	$(INST) configs/common/linuxcnc.nml $(DESTDIR)$(SHARE)/linuxcnc.nml
+	$(INST) configs/common/*.nml $(DESTDIR)$(SHARE)
 	$(call copy_tree,lib/hallib,$(SHARE)/hallib)
 	$(call copy_tree,nc_files,$(SHARE)/ncfiles)
 	$(call copy_tree,configs,$(DOC)/examples/sample-configs)

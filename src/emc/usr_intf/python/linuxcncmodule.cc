@@ -515,23 +515,9 @@ void define_error_channel(py::module_ &m) {
 }
 
 void define_constants(py::module_ &m) {
-    const struct { const char *name; int value; } all[] = {
-        {"OPERATOR_ERROR", 11}, {"OPERATOR_TEXT", 12}, {"OPERATOR_DISPLAY", 13}, {"NML_ERROR", 1}, {"NML_TEXT", 2}, {"NML_DISPLAY", 3},
-        {"LINEAR", 1}, {"ANGULAR", 2}, {"INTERP_IDLE", 1}, {"INTERP_READING", 2}, {"INTERP_PAUSED", 3}, {"INTERP_WAITING", 4},
-        {"MODE_MANUAL", 1}, {"MODE_AUTO", 2}, {"MODE_MDI", 3}, {"STATE_ESTOP", 1}, {"STATE_ESTOP_RESET", 2}, {"STATE_OFF", 3}, {"STATE_ON", 4},
-        {"SPINDLE_FORWARD", 1}, {"SPINDLE_REVERSE", -1}, {"SPINDLE_OFF", 0}, {"SPINDLE_INCREASE", 10}, {"SPINDLE_DECREASE", 11}, {"SPINDLE_CONSTANT", 12},
-        {"MIST_ON", 1}, {"MIST_OFF", 0}, {"FLOOD_ON", 1}, {"FLOOD_OFF", 0}, {"BRAKE_ENGAGE", 1}, {"BRAKE_RELEASE", 0},
-        {"JOG_STOP", 0}, {"JOG_CONTINUOUS", 1}, {"JOG_INCREMENT", 2},
-        {"AUTO_RUN", 0}, {"AUTO_PAUSE", 1}, {"AUTO_RESUME", 2}, {"AUTO_STEP", 3}, {"AUTO_REVERSE", 4}, {"AUTO_FORWARD", 5},
-        {"TRAJ_MODE_FREE", 1}, {"TRAJ_MODE_COORD", 2}, {"TRAJ_MODE_TELEOP", 3},
-        {"MOTION_TYPE_TRAVERSE", 1}, {"MOTION_TYPE_FEED", 2}, {"MOTION_TYPE_ARC", 3}, {"MOTION_TYPE_TOOLCHANGE", 4}, {"MOTION_TYPE_PROBING", 5}, {"MOTION_TYPE_INDEXROTARY", 6},
-        {"KINEMATICS_IDENTITY", 1}, {"KINEMATICS_FORWARD_ONLY", 2}, {"KINEMATICS_INVERSE_ONLY", 3}, {"KINEMATICS_BOTH", 4},
-        {"DEBUG_CONFIG", 0x2}, {"DEBUG_VERSIONS", 0x8}, {"DEBUG_TASK_ISSUE", 0x10}, {"DEBUG_NML", 0x40}, {"DEBUG_MOTION_TIME", 0x80}, {"DEBUG_INTERP", 0x100},
-        {"DEBUG_RCS", 0x200}, {"DEBUG_INTERP_LIST", 0x800}, {"DEBUG_OWORD", 0x2000}, {"DEBUG_REMAP", 0x4000}, {"DEBUG_PYTHON", 0x8000}, {"DEBUG_STATE_TAGS", 0x80000},
-        {"EXEC_ERROR", 1}, {"EXEC_DONE", 2}, {"EXEC_WAITING_FOR_MOTION", 3}, {"EXEC_WAITING_FOR_MOTION_QUEUE", 4}, {"EXEC_WAITING_FOR_IO", 5},
-        {"EXEC_WAITING_FOR_MOTION_AND_IO", 7}, {"EXEC_WAITING_FOR_DELAY", 8}, {"EXEC_WAITING_FOR_SYSTEM_CMD", 9}, {"EXEC_WAITING_FOR_SPINDLE_ORIENTED", 10},
-        {"MAX_JOINTS", EMCMOT_MAX_JOINTS}, {"MAX_AXIS", EMCMOT_MAX_AXIS}, {"RCS_DONE", 1}, {"RCS_EXEC", 2}, {"RCS_ERROR", 3}};
-    for (auto &c : all) m.attr(c.name) = c.value;
+#define C(NAME, VALUE) m.attr(#NAME) = VALUE;
+#include "constants.def"
+#undef C
 }
 
 } // namespace
