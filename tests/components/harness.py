@@ -45,7 +45,7 @@ class HalFailed(Exception):
 
 def script(parts: list[Part], thread_ns: int, threads: str) -> str:
     """HAL commands up to, and without, start."""
-    depth = max(p.cycles for p in parts) + 50
+    depth = max(max(p.cycles, len(p.rows)) for p in parts) + 50
     feeding = [p for p in parts if p.inputs]
     lines = [f"loadrt {p.load}" for p in parts if p.load]
     lines += [f"setp {name} {value}" for p in parts for name, value in p.setp]

@@ -146,6 +146,8 @@ def batches(tables: list[Table]) -> list[list[Table]]:
 def holds(value: str, wanted: float | None) -> bool:
     if wanted is None:
         return True
+    if isinstance(wanted, int) and "." not in value and value[-1].isdigit():
+        return int(value) == wanted
     x = float(value)
     if math.isnan(wanted) or math.isinf(wanted):
         return math.isnan(x) if math.isnan(wanted) else x == wanted
