@@ -50,6 +50,7 @@ struct Cycle {
     double aa, bb;
     double r, bottom, clear;
     double down = 1; // -1: the drill goes toward greater cc
+    long moves = 0;
 
     bool above(double a, double b) const { return (a - b) * down > 0; }
 
@@ -59,6 +60,7 @@ struct Cycle {
         axis(end, p.aa) = a;
         axis(end, p.bb) = b;
         axis(end, p.cc) = c;
+        ++moves;
         if (!feed) {
             traverse(s, line_of(s), end);
             return;
@@ -86,15 +88,15 @@ int drill_dwell(Cycle &c)
     return INTERP_OK;
 }
 
-// Bounded even when Q is absurdly small against the depth.
-enum { MAX_PECKS = 1000000 };
+// What one line may ask for, even when Q is absurdly small against the depth.
+enum { MAX_PECKS = 100000, MAX_MOVES = 1000000 };
 
 int peck(Cycle &c, bool chip_break)
 {
     Setup &s = c.s;
     const double q = s.cycle_q;
     const double gap = s.block.has('d') ? s.block['d'] : chip_break ? s.peck_g73 : s.peck_g83;
-    CHECK(fabs(c.r - c.bottom) / q > MAX_PECKS, "Q word gives more than %d pecks", MAX_PECKS);
+    CHECK(!(fabs(c.r - c.bottom) / q <= MAX_PECKS), "Q word gives more than %d pecks", MAX_PECKS);
     for (double depth = c.r - q * c.down; c.above(depth, c.bottom); depth -= q * c.down) {
         c.feed(depth);
         if (!chip_break) c.rapid(c.r);
@@ -361,6 +363,7 @@ int convert_cycle(Setup &s, int g)
             if (c.above(c.clear, r)) c.rapid(r);
         }
         TRY(run_body(c, g));
+        CHECK(c.moves > MAX_MOVES, "L word makes more than %d moves", MAX_MOVES);
     }
     axis(s.current, p.cc) = c.clear;
     s.motion_mode = g;

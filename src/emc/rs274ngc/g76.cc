@@ -113,7 +113,8 @@ int convert_g76(Setup &s)
     t.target_z = end.tran.z + k * t.slope;
     const double degression = b.has('r') && b['r'] >= 1 ? b['r'] : 1.0;
     const int spring = b.has('h') ? std::max(int(b['h']), 0) : 0;
-    CHECK(pow(k / j, degression) > MAX_PASSES, "J of G76 gives more than 100000 passes");
+    CHECK(!(pow(k / j, degression) <= MAX_PASSES), "J of G76 gives more than %d passes", MAX_PASSES);
+    CHECK(spring > MAX_PASSES, "H of G76 gives more than %d passes", MAX_PASSES);
 
     double depth = t.i + j;
     for (int n = 1; depth < t.end_depth; depth = t.i + j * pow(++n, 1.0 / degression)) t.pass(depth);

@@ -275,9 +275,8 @@ struct Roughing {
                                   ? e.centre + Plane(0, e.radius())
                                   : e.end;
             if (top.imag() < level - TINY_LEVEL) continue;
-            if (!meets_level(e, level, Crossing::LAST, &p)) continue;
-            if (e.kind == Element::CCW && !meets_level(e, level, Crossing::FIRST, &p)) continue;
-            if (std::abs(p - tool.location) > TINY_LEVEL && p.real() < tool.location.real()) TRY(tool.feed(p));
+            if (!meets_level(e, level, e.kind == Element::CW ? Crossing::LAST : Crossing::FIRST, &p)) continue;
+            if (p.real() < tool.location.real() + TINY_LEVEL) TRY(tool.feed(p));
             if (std::abs(top - tool.location) > 1e-3) TRY(tool.along(e, top));
         }
         return INTERP_OK;

@@ -283,12 +283,26 @@ int Interp::synch()
     return INTERP_OK;
 }
 
+// The program is where reading goes on.
+static void end_mdi(Setup &s)
+{
+    s.mdi = false;
+    clear_labels(s);
+    s.skipping.clear();
+    s.defining.clear();
+    s.source = s.mdi_source;
+    if (s.source >= 0 && size_t(s.source) < s.sources.size()) {
+        s.sources[size_t(s.source)]->seek(s.mdi_offset);
+        s.sources[size_t(s.source)]->line_number = s.mdi_line;
+    }
+}
+
 int Interp::reset()
 {
     Setup &s = *this->s;
     unwind(s);
     drop_comp(s);
-    s.mdi = false;
+    if (s.mdi) end_mdi(s);
     s.raw[0] = s.text[0] = 0;
     s.raw_length = 0;
     s.canon.ON_RESET();
@@ -577,8 +591,10 @@ int Interp::execute(const char *line)
         status = read(line);
         if (status == INTERP_OK) status = execute();
     }
+    int lines = 0;
     while (status == INTERP_OK && (s.call_level > 0 || !s.skipping.empty()) &&
            (s.source >= 0 || handler_waits(s))) {
+        if (s.mdi_slice > 0 && ++lines > s.mdi_slice) return INTERP_OK;
         status = read();
         if (status == INTERP_OK) status = execute();
     }
@@ -588,15 +604,7 @@ int Interp::execute(const char *line)
     }
     if (status == INTERP_EXECUTE_FINISH && s.call_level > 0) return status;
     // The line is done, or has failed.
-    s.mdi = false;
-    clear_labels(s);
-    s.skipping.clear();
-    s.defining.clear();
-    s.source = s.mdi_source;
-    if (s.source >= 0 && size_t(s.source) < s.sources.size()) {
-        s.sources[size_t(s.source)]->seek(s.mdi_offset);
-        s.sources[size_t(s.source)]->line_number = s.mdi_line;
-    }
+    end_mdi(s);
     if (status == INTERP_OK || status == INTERP_EXECUTE_FINISH) s.canon.FINISH();
     return status;
 }
@@ -608,6 +616,9 @@ int Interp::execute(const char *line, int sequence_number)
     s->mdi_number = 0;
     return status;
 }
+
+void Interp::set_mdi_slice(int lines) { s->mdi_slice = lines; }
+bool Interp::mdi_waits() const { return s->mdi; }
 
 void Interp::set_loop_on_main_m99(bool on) { s->loop_on_m99 = on; }
 
@@ -621,7 +632,11 @@ int Interp::on_abort(int reason, const char *message)
     if (s.on_abort_command.empty()) return -1;
     char text[INTERP_LINELEN];
     snprintf(text, sizeof text, "%s [%d]", s.on_abort_command.c_str(), reason);
-    return execute(text);
+    const int slice = s.mdi_slice;
+    s.mdi_slice = 0;
+    const int status = execute(text);
+    s.mdi_slice = slice;
+    return status;
 }
 
 int Interp::restore_from_tag(const state_tag_t &tag) { return restore_after_abort(*s, tag); }

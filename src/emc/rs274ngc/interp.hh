@@ -87,6 +87,11 @@ class Interp
     /// While call_level() > 0 after INTERP_EXECUTE_FINISH, execute(nullptr) continues.
     int execute(const char *line);
     int execute(const char *line, int sequence_number);
+    /// execute(line) gives control back with INTERP_OK after so many lines of called subs; while
+    /// mdi_waits(), execute(nullptr) goes on and reset() ends it. 0 (at first): only at the end.
+    void set_mdi_slice(int lines);
+    /// An MDI line has more to do: it waits for the machine, or its slice is used up.
+    bool mdi_waits() const;
     /// M99 in the main program goes back to the start (task) or ends it (elsewhere).
     void set_loop_on_main_m99(bool on);
     /// After an abort: [RS274NGC]ON_ABORT_COMMAND with the reason. INTERP_OK, -1 when there is none.

@@ -14,3 +14,10 @@ EXTRA_TARGETS += $(O)/test/interp-unit
 $(O)/test/interp-unit: $(call objs,ul,src/emc/rs274ngc/rs274_unit.cc) $(T)/lib/librs274.so
 	$(call say,LINK,$@)
 	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $< -L$(T)/lib -lrs274 -ltooldata -llinuxcncini -Wl,-rpath,'$$ORIGIN/../../lib'
+# Inputs of tests/fuzz/rs274, run by tests/rs274/fuzz-corpus-keeps-promises.
+$(call objs,ul,src/emc/rs274ngc/rs274_fuzz.cc): EXTRA += -Isrc/emc/rs274ngc
+DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/rs274ngc/rs274_fuzz.cc))
+EXTRA_TARGETS += $(O)/test/interp-fuzz
+$(O)/test/interp-fuzz: $(call objs,ul,src/emc/rs274ngc/rs274_fuzz.cc) $(T)/lib/librs274.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $< -L$(T)/lib -lrs274 -ltooldata -llinuxcncini -Wl,-rpath,'$$ORIGIN/../../lib'

@@ -327,6 +327,7 @@ struct Setup {
     std::string defining;     // sub whose definition is skipped
     bool lazy_closed = false; // the program is closed, its subs are kept
     bool mdi = false;         // an MDI line runs
+    int mdi_slice = 0;        // lines that it may run at a time, 0 all
     int mdi_source = -1, mdi_line = 0, mdi_number = 0; // where the program goes on after it
     int64_t mdi_offset = 0;
     int64_t line_offset = 0;  // of the line being read, and behind it

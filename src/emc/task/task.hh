@@ -157,6 +157,7 @@ private:
     // MDI
     std::deque<std::string> mdi_queue_;
     bool mdi_continue_ = false;  // a called subroutine has more to do
+    bool mdi_sliced_ = false;    // ... and does not wait for the machine
     bool mdi_active_ = false;
     // upload of a program
     std::string upload_name_;

@@ -324,6 +324,7 @@ int Task::plan_init() {
     InterpOptions options;
     options.ini_file = ini_file_;
     options.task = true;
+    interp_->set_mdi_slice(0);
     int r = interp_->init(options);
     if (r > INTERP_MIN_ERROR) {
         operator_error(interp_->error_text(r));
@@ -334,8 +335,10 @@ int Task::plan_init() {
         while (r == INTERP_EXECUTE_FINISH && interp_->call_level() > 0);
         if (r == INTERP_EXECUTE_FINISH) r = INTERP_OK;
         if (r > INTERP_MIN_ERROR) operator_error(interp_->error_text(r));
+        interp_->set_mdi_slice(static_cast<int>(interp_max_len_));
         return r;
     }
+    interp_->set_mdi_slice(static_cast<int>(interp_max_len_));
     return 0;
 }
 
@@ -541,7 +544,7 @@ int Task::mdi_run(const char *text) {
 int Task::mdi_result(int r) {
     EMC_TASK_STAT &t = stat_.task;
     t.callLevel = interp_->call_level();
-    mdi_continue_ = false;
+    mdi_continue_ = mdi_sliced_ = false;
     note_offsets();
     if (r > INTERP_MIN_ERROR) {
         t.interpreter_errcode = r;
@@ -565,6 +568,10 @@ int Task::mdi_result(int r) {
         wait_and_synch();
         return 0;
     }
+    if (r == INTERP_OK && interp_->mdi_waits()) {
+        mdi_continue_ = mdi_sliced_ = true;
+        return 0;
+    }
     canon_->FINISH();
     if (r == INTERP_OK) return 0;
     t.interpreter_errcode = r;
@@ -575,7 +582,8 @@ void Task::mdi_cycle() {
     EMC_TASK_STAT &t = stat_.task;
     if (wait_) return;
     if (mdi_continue_) {
-        if (idle() && mdi_result(interp_->execute(nullptr)) != 0) execute_error_ = true;
+        const bool ready = mdi_sliced_ ? list_.size() <= interp_max_len_ : idle();
+        if (ready && mdi_result(interp_->execute(nullptr)) != 0) execute_error_ = true;
         return;
     }
     if (!mdi_queue_.empty()) {

@@ -101,4 +101,20 @@ for program, want, line in (("M402", "my error", "O <m402> call "), ("M405", "py
 check("ZeroDivisionError" in run(";py,1/0\nM2\n").err and "ValueError: boom" in run("M405\nM2\n").err, "tracebacks are shown")
 r = run("M2\n", INI.replace("python=m400", "python=nothere"))
 check(r.status == 1 and "'nothere' is not a Python callable function" in r.err, r.err)
+
+# FP-114: user code may be plain functions or generators, and its mistakes name file and line.
+def with_handler(body):
+    files = dict(FILES)
+    files["python/remap.py"] = FILES["python/remap.py"] + "def m408(self, **words):\n" + body
+    return rs274("G0 X1\nM408\nG0 X2\nM2\n", ini=INI.replace("[RS274NGC]\n", "[RS274NGC]\nREMAP=M408 modalgroup=10 python=m408\n"), files=files)
+
+
+for body in ("    pass\n", "    return INTERP_OK\n", "    yield INTERP_OK\n", "    yield INTERP_EXECUTE_FINISH\n"):
+    r = with_handler(body)
+    check(r.status == 0 and [a[0] for n, a in r.moves()] == [1, 2], body + r.err)
+for body, shown in (("    undefined_name()\n", "NameError"), ("    yield INTERP_OK\n    1 +\n", "SyntaxError"), ("    import sys\n    sys.exit(3)\n", "SystemExit"),
+                    ("    def inner():\n        yield INTERP_EXECUTE_FINISH\n        raise KeyError('k')\n    yield from inner()\n", "KeyError")):
+    r = with_handler(body)
+    check(r.status == 1 and shown in r.err and "remap.py" in r.err and re.search(r"line \d+", r.err), body + r.err)
+    check([a[0] for n, a in r.moves()] in ([1], []), r.out)
 done()
