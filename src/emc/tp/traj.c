@@ -600,6 +600,14 @@ static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int 
     return cap < feed_b(tj, c, tj->drive.max_scale, 1e99) ? spread : 0;
 }
 
+/* A cell that would end within rounding of a move's end, ends there: both are compared with s. */
+static double snap_end(const struct traj *tj, double end, double tiny)
+{
+    for (uint32_t t = tj->cut_seg; t != tj->end && traj_cseg(tj, t)->s1 <= end + tiny; t++)
+        if (traj_cseg(tj, t)->s1 >= end - tiny) return traj_cseg(tj, t)->s1;
+    return end;
+}
+
 /* Makes the next cell of the final path. 0: nothing to do. */
 static int cut_cell(struct traj *tj)
 {
@@ -651,6 +659,7 @@ static int cut_cell(struct traj *tj)
         step = fmin(step, angle * g->prim.len / g->prim.angle);
     }
     if (end - a > 1.25 * step) end = a + step;
+    end = snap_end(tj, end, tiny);
 
     struct traj_cell *c = cell_at(tj, tj->cell_end);
     c->s0 = a;
