@@ -38,6 +38,11 @@ double axis_get_acc_limit(int axis)
     return axis >= 0 && axis < EMCMOT_MAX_AXIS ? motion_state_.axis[axis].acc_limit : 0.0;
 }
 
+double axis_get_jerk_limit(int axis)
+{
+    return axis >= 0 && axis < EMCMOT_MAX_AXIS ? motion_state_.axis[axis].jerk_limit : 0.0;
+}
+
 void axes_sync_to(struct motion *m, const EmcPose *pose)
 {
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {

@@ -174,8 +174,45 @@ static int make_segment(struct motion *m)
     return 0;
 }
 
+/* ---- what a planner may ask of the machine ---- */
+
+static int planner_joints(void)
+{
+    return kin_joints(&motion_state_);
+}
+
+/* Asking does not choose: the flags of the real position stay as they are. */
+static int planner_inverse(const EmcPose *pose, double *joint)
+{
+    KINEMATICS_INVERSE_FLAGS iflags = motion_state_.iflags;
+    KINEMATICS_FORWARD_FLAGS fflags = motion_state_.fflags;
+    return kinematicsInverse(pose, joint, &iflags, &fflags);
+}
+
+static void planner_joint_commands(double *joint)
+{
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        joint[j] = motion_state_.joint[j].coarse_pos;
+}
+
+static void planner_joint_limits(int joint, double *vel, double *acc, double *jerk)
+{
+    const emcmot_joint_t *jt = &motion_state_.joint[joint];
+    *vel = jt->vel_limit;
+    *acc = jt->acc_limit;
+    *jerk = jt->jerk_limit;
+}
+
+static const struct tp_machine planner_machine = {planner_joints, planner_inverse, planner_joint_commands,
+                                                  planner_joint_limits, axis_get_jerk_limit};
+
+/* A user's planner need not have it. */
+#pragma weak tpMotMachine
+
 static int bind_modules(struct motion *m)
 {
+    if (tpMotMachine)
+        tpMotMachine(&planner_machine);
     tpMotFunctions(dio_write, aio_write, rotary_unlock, rotary_is_unlocked, axis_get_vel_limit, axis_get_acc_limit);
     tpMotData(m->status, &m->config_work);
     if (tpCreate(&m->tp, DEFAULT_TC_QUEUE_SIZE, m->comp_id) != 0) {

@@ -255,6 +255,7 @@ void axis_zero_eoffsets(struct motion *m);
 int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets);
 double axis_get_vel_limit(int axis);
 double axis_get_acc_limit(int axis);
+double axis_get_jerk_limit(int axis); /* 0: none */
 
 /* jog.c */
 void joint_stop(struct motion *m, int j, int immediate);

@@ -29,6 +29,7 @@ void rtapi_app_exit(void)
 }
 
 EXPORT_SYMBOL(tpMotFunctions);
+EXPORT_SYMBOL(tpMotMachine);
 EXPORT_SYMBOL(tpMotData);
 EXPORT_SYMBOL(tpCreate);
 EXPORT_SYMBOL(tpClear);

@@ -179,17 +179,23 @@ void path_round(double x, int side, double k[4])
     k[3] = m > 0 ? -1.5 * x : 0;
 }
 
-/* e(y) = -sign(x) y^2 (1-y)^3 / 4 of y = |x|. */
+/* e'' is piecewise linear in y = |x|: -1/2 at 0, 9/56 at 3/4, 0 at 1. These make e, e' and e'' vanish at 1
+ * with the least slope of curvature (37/42, 9/14) that corners at quarters of the width allow. */
 void path_bend(double x, int side, double k[4])
 {
     double y = fabs(x), m = 1 - y, sign = x > 0 || (x == 0 && side > 0) ? 1 : -1;
 
     if (m < 0) {
         k[0] = k[1] = k[2] = k[3] = 0;
-        return;
+    } else if (y < 0.75) {
+        k[0] = sign * y * (3.0 / 28 + y * (-0.25 + y * (37.0 / 252)));
+        k[1] = 3.0 / 28 + y * (-0.5 + y * (37.0 / 84));
+        k[2] = sign * (-0.5 + y * (37.0 / 42));
+        k[3] = 37.0 / 42;
+    } else {
+        k[0] = sign * (3.0 / 28) * m * m * m;
+        k[1] = -(9.0 / 28) * m * m;
+        k[2] = sign * (9.0 / 14) * m;
+        k[3] = -9.0 / 14;
     }
-    k[0] = -sign * y * y * m * m * m / 4;
-    k[1] = -m * m * y * (2 - 5 * y) / 4;
-    k[2] = -sign * (2 + y * (-18 + y * (36 - 20 * y))) / 4;
-    k[3] = -(-18 + y * (72 - 60 * y)) / 4;
 }

@@ -66,7 +66,9 @@ void path_bend(double x, int side, double k[4]);
 
 #define PATH_ROUND_PEAK (3.0 / 16.0) /* value at 0 */
 #define PATH_ROUND_CURVE 0.75        /* largest second derivative */
-#define PATH_BEND_PEAK 0.00864       /* largest absolute value */
+#define PATH_ROUND_SLOPE 1.5         /* largest third derivative */
+#define PATH_BEND_PEAK 0.01363       /* largest absolute value */
+#define PATH_BEND_SLOPE (37.0 / 42)  /* largest third derivative */
 
 /* Euclidean length of one group (three axes) of v. */
 double path_group_norm(const double v[PATH_AXES], enum path_metric group);

@@ -44,6 +44,8 @@ enum tap_state { TAP_IDLE, TAP_IN, TAP_REVERSING, TAP_OUT, TAP_FINAL_REVERSAL, T
 struct tap {
     enum tap_state state;
     double x, v;        /* place and speed along the hole */
+    double place;       /* behind the filter */
+    struct traj_filter filter;
     double depth;
     double dir[PATH_AXES];
     double start[PATH_AXES];
@@ -61,6 +63,7 @@ struct move_info {
     int tap;                /* rigid tap: a mark in the path */
     double tap_scale;       /* factor of the spindle's speed while retracting */
     double tap_vmax, tap_acc, tap_feed;
+    int tap_window;         /* cycles of the filter */
     double tap_end[PATH_AXES];
     struct state_tag_t tag;
     int has_outputs;
@@ -99,6 +102,7 @@ static void (*set_rotary_unlock)(int joint, int unlock);
 static int (*get_rotary_is_unlocked)(int joint);
 static double (*axis_vel_limit)(int axis);
 static double (*axis_acc_limit)(int axis);
+static const struct tp_machine *machine;
 static emcmot_status_t *status;
 static emcmot_config_t *config;
 
@@ -132,6 +136,43 @@ void tpMotFunctions(void (*DioWrite)(int idx, char val), void (*AioWrite)(int id
     axis_vel_limit = axis_get_vel_limit;
     axis_acc_limit = axis_get_acc_limit;
 }
+
+void tpMotMachine(const struct tp_machine *the_machine)
+{
+    machine = the_machine;
+}
+
+static int machine_joints(void)
+{
+    return machine ? machine->joints() : 0;
+}
+
+static int machine_inverse(const double p[PATH_AXES], double q[LIMITS_JOINTS])
+{
+    EmcPose pose;
+    to_pose(p, &pose);
+    return machine->inverse(&pose, q);
+}
+
+static void machine_seed(double q[LIMITS_JOINTS])
+{
+    machine->joint_commands(q);
+}
+
+static void joint_limits(int joint, double limit[3])
+{
+    machine->joint_limits(joint, &limit[0], &limit[1], &limit[2]);
+}
+
+static void axis_limits(int axis, double limit[3])
+{
+    limit[0] = axis_vel_limit ? axis_vel_limit(axis) : 0;
+    limit[1] = axis_acc_limit ? axis_acc_limit(axis) : 0;
+    limit[2] = machine ? machine->axis_jerk(axis) : 0;
+}
+
+static const struct limits_source limits_source = { machine_joints, machine_inverse, machine_seed, joint_limits,
+                                                    axis_limits };
 
 void tpMotData(emcmot_status_t *motion_status, emcmot_config_t *motion_config)
 {
@@ -177,6 +218,7 @@ int tpCreate(TP_STRUCT *tp, int queue_size, int id)
     pl->vlimit = 1e99;
     pl->unlocked_joint = pl->followed = -1;
     traj_init(&pl->tj, pl->cycle);
+    pl->tj.lim.source = &limits_source;
     forget_moves(tp, pl, 0);
     return TP_ERR_OK;
 }
@@ -431,12 +473,13 @@ static int check_add(const struct planner *pl, double vel, double ini_maxvel, do
     return TP_ERR_OK;
 }
 
+/* Limits as they are now; a path that begins also learns how joints depend on the pose. */
 static void read_limits(struct planner *pl)
 {
-    for (int i = 0; i < PATH_AXES; i++) {
-        pl->tj.lim.v[i] = axis_vel_limit ? axis_vel_limit(i) : 0;
-        pl->tj.lim.a[i] = axis_acc_limit ? axis_acc_limit(i) : 0;
-    }
+    struct traj *tj = &pl->tj;
+
+    if (tj->end == tj->first) limits_probe(&tj->lim, pl->goal);
+    limits_read(&tj->lim, status->planner_type == 1, status->jerk);
 }
 
 /* Appends a move whose path, feed and info are filled in, except for outputs and sync. */
@@ -533,6 +576,12 @@ int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double ini_maxvel, dou
     *info = (struct move_info){ .id = pl->next_id, .canon = 0, .enables = enables, .indexer = -1, .tap = 1,
                                 .tap_scale = scale > 0 ? scale : 1, .tap_vmax = ini_maxvel, .tap_acc = acc,
                                 .tap_feed = vel, .tag = tag };
+    info->tap_window = 1;
+    if (status->planner_type == 1 && ini_maxjerk > 0) {
+        read_limits(pl);
+        info->tap_window = traj_window(&pl->tj, ini_maxvel, acc, ini_maxjerk);
+        info->tap_acc = fmin(acc, ini_maxjerk * info->tap_window * pl->cycle / 2);
+    }
     memcpy(info->tap_end, to, sizeof info->tap_end);
     /* In the path it is a mark: it ends where it began. */
     memcpy(move.prim.start, pl->goal, sizeof move.prim.start);
@@ -583,9 +632,10 @@ static double spindle_revs(int spindle)
 
 /* Seconds by which the reference is taken ahead. What the planner puts out now acts OUTPUT_LAG cycles
  * later; the place that is compared with the reference is that of the cycle before. */
-static double follow_lead(const struct planner *pl)
+static double follow_lead(const struct planner *pl, const struct move_info *info)
 {
-    return (OUTPUT_LAG - 1) * pl->cycle + traj_lag(&pl->tj);
+    double lag = info->tap ? (info->tap_window - 1) * pl->cycle / 2 : traj_lag(&pl->tj);
+    return (OUTPUT_LAG - 1) * pl->cycle + lag;
 }
 
 /* Goes on with the start of a move that follows a spindle's position: index, then phase. 1: may start. */
@@ -614,7 +664,7 @@ static int sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info 
         pl->pausing = pl->aborting = 1;
         return 0;
     }
-    follow_start(&pl->follow, info->sync.upr, acc, follow_lead(pl), pl->cycle);
+    follow_start(&pl->follow, info->sync.upr, acc, follow_lead(pl, info), pl->cycle);
     status->spindleSync = 1;
     return 1;
 }
@@ -639,7 +689,7 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
         if (!get_rotary_is_unlocked(info->indexer)) return 0;
     }
     if (info->tap) return sync_start(tp, pl, info, info->tap_acc, info->tap_vmax);
-    if (info->sync.mode == SYNC_POSITION && !goes_on) return sync_start(tp, pl, info, g->acc / g->stretch, g->vmax);
+    if (info->sync.mode == SYNC_POSITION && !goes_on) return sync_start(tp, pl, info, traj_acc(&pl->tj, index), g->vmax);
     return 1;
 }
 
@@ -653,9 +703,9 @@ static double sync_speed(struct planner *pl)
     if (info->sync.mode == SYNC_SPEED)
         return fabs(status->spindle_status[info->sync.spindle].spindleSpeedIn) * info->sync.upr;
     if (info->sync.mode != SYNC_POSITION || pl->followed < 0) return 0;
-    double reference = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl));
+    double reference = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl, info));
     double error = reference - (tj->s - g->s0) / g->stretch;
-    double v = follow_speed(error, info->sync.upr * pl->follow.speed, g->acc / g->stretch, pl->cycle);
+    double v = follow_speed(error, info->sync.upr * pl->follow.speed, traj_acc(tj, tj->cur), pl->cycle);
     return v > 0 ? v : 0;
 }
 
@@ -688,11 +738,12 @@ static void run_tap(struct planner *pl, const struct move_info *info)
         for (int i = 0; i < PATH_AXES; i++) d[i] = info->tap_end[i] - pl->tj.pos[i];
         tap->depth = path_group_norm(d, PATH_XYZ);
         for (int i = 0; i < PATH_AXES; i++) tap->dir[i] = i < 3 ? d[i] / tap->depth : 0;
-        tap->x = tap->v = tap->abort_time = 0;
+        tap->x = tap->v = tap->place = tap->abort_time = 0;
+        traj_filter_set(&tap->filter, info->tap_window, 0);
         tap->state = TAP_IN;
         v0 = 0;
     }
-    double error = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl)) - tap->x;
+    double error = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl, info)) - tap->x;
     double rate = info->sync.upr * pl->follow.speed;
     want = follow_speed(error, rate, info->tap_acc, T);
     if (want < 0 && tap->state == TAP_IN) want = 0;
@@ -711,6 +762,7 @@ static void run_tap(struct planner *pl, const struct move_info *info)
     if (fabs(want) > info->tap_vmax) want = want < 0 ? -info->tap_vmax : info->tap_vmax;
     tap->v += fmax(-dv, fmin(dv, want - tap->v));
     tap->x += (v0 + tap->v) / 2 * T;
+    tap->place = traj_filter_step(&tap->filter, tap->x);
 
     switch (tap->state) {
     case TAP_IDLE: break;
@@ -741,8 +793,8 @@ static void run_tap(struct planner *pl, const struct move_info *info)
         }
         break;
     case TAP_PLACE:
-        if (fabs(tap->x) > 1e-9 || fabs(tap->v) > 2 * dv) break;
-        tap->x = tap->v = 0;
+        if (fabs(tap->x) > 1e-9 || fabs(tap->v) > 2 * dv || !traj_filter_settled(&tap->filter)) break;
+        tap->x = tap->place = tap->v = 0;
         tap->state = TAP_IDLE;
         traj_finish(&pl->tj);
         break;
@@ -783,7 +835,7 @@ static void moving_status(struct planner *pl, const double before[PATH_AXES])
         left[i] = g->prim.end[i] - pl->pos[i];
     }
     to_pose(left, &status->dtg);
-    status->distance_to_go = (g->s1 - tj->s) / g->stretch;
+    status->distance_to_go = (g->s1 - tj->place) / g->stretch;
     speed = path_group_norm(step, g->prim.metric) / pl->cycle;
     requested = fmin(g->feed * (tj->drive.hold ? 0 : tj->drive.scale), g->vmax);
     if (g->prim.metric != PATH_ABC) requested = fmin(requested, tj->drive.vlimit);
@@ -829,7 +881,7 @@ int tpRunCycle(TP_STRUCT *tp, long period)
         return TP_ERR_WAITING;
     }
     if (pl->followed >= 0) follow_measure(&pl->follow, spindle_revs(pl->followed), pl->cycle);
-    if (pl->aborting && traj_at_rest(tj) && (pl->tap.state == TAP_IDLE || (pl->tap.v == 0 && pl->tap.abort_time > 0))) {
+    if (pl->aborting && traj_at_rest(tj) && (pl->tap.state == TAP_IDLE || (pl->tap.v == 0 && traj_filter_settled(&pl->tap.filter) && pl->tap.abort_time > 0))) {
         if (pl->unlocked_joint >= 0) set_rotary_unlock(pl->unlocked_joint, 0);
         pl->unlocked_joint = -1;
         forget_moves(tp, pl, 1);
@@ -856,9 +908,15 @@ int tpRunCycle(TP_STRUCT *tp, long period)
     enter_moves(pl);
     if (tj->in_mark) {
         run_tap(pl, &pl->info[tj->cur & (TRAJ_SEGS - 1)]);
-        for (int i = 0; i < PATH_AXES; i++) pl->pos[i] += pl->tap.dir[i] * pl->tap.x;
+        for (int i = 0; i < PATH_AXES; i++) pl->pos[i] += pl->tap.dir[i] * pl->tap.place;
     }
     moving_status(pl, before);
+    if (traj_blocked(tj) && !pl->aborting) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: the machine cannot follow the path from here, the kinematics have no solution\n",
+                        pl->exec_id);
+        status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
+        pl->pausing = pl->aborting = 1;
+    }
     if (traj_done(tj) && rotary_locked(pl)) {
         forget_moves(tp, pl, 1);
         idle_status(pl);

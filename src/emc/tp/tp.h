@@ -20,6 +20,17 @@ extern "C" {
 extern void tpMotFunctions(void (*DioWrite)(int idx, char val), void (*AioWrite)(int idx, double val),
                            void (*SetRotaryUnlock)(int joint, int unlock), int (*GetRotaryIsUnlocked)(int joint),
                            double (*axis_get_vel_limit)(int axis), double (*axis_get_acc_limit)(int axis));
+/* The machine behind the axes, for a planner that plans in joint limits. All functions [servo]. */
+struct tp_machine {
+    int (*joints)(void); /* that the kinematics move */
+    int (*inverse)(const EmcPose *pose, double *joint); /* kinematicsInverse: joint is seed and result */
+    void (*joint_commands)(double *joint);
+    void (*joint_limits)(int joint, double *vel, double *acc, double *jerk); /* jerk 0: none */
+    double (*axis_jerk)(int axis);                      /* 0: none */
+};
+/* [init] Optional for a planner module: without it only the limits of axes and moves count. The
+ * machine must outlive the planner. */
+extern void tpMotMachine(const struct tp_machine *machine);
 /* [init] The status block the planner writes its progress to, and the configuration it reads. */
 extern void tpMotData(emcmot_status_t *status, emcmot_config_t *config);
 

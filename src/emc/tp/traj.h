@@ -4,15 +4,19 @@
  *
  *   append -> junctions (how two moves join) -> cells (pieces of path with bounds)
  *          -> envelope K (highest speed from which the queue's end can be reached at rest)
- *          -> step (one servo cycle along the path)
+ *          -> step (one servo cycle along the path) -> filter (with limits of jerk)
  *
  * Invariants, held whatever is commanded and whenever:
  *   1. the position is always a point of the rounded path; a rounded path leaves
  *      the programmed one by no more than the tolerance;
  *   2. within a cell -down(b) <= u <= up(b) and b <= cap, u being the acceleration along
- *      the path and b the squared speed: that keeps every axis within its limits;
+ *      the path and b the squared speed: that keeps every axis and joint within its limits;
  *   3. from the present state, braking by the bound of 2 keeps 2 in all cells ahead and
  *      ends at rest before the last cell's end.
+ * With limits of jerk the place on the path is the mean of the last `window` places of step():
+ * acceleration then changes by no more than 2 u / window, and 2 holds for
+ * every place where the mean may be while step() is in a cell: pieces with their own bounds become
+ * cells when all that is in reach is known.
  * Overrides, pause, abort and reverse only change the speed that step() aims at.
  *
  * Context: traj_init [init]; all others [servo]: no allocation, no locks, bounded loops.
@@ -23,10 +27,12 @@
 
 #include <stdint.h>
 
+#include "limits.h"
 #include "path.h"
 
 #define TRAJ_SEGS 4096   /* capacity of the ring of moves, a power of two */
 #define TRAJ_CELLS 16384 /* capacity of the ring of cells, a power of two */
+#define TRAJ_PIECES 2048 /* capacity of the ring of pieces on their way to cells, a power of two */
 #define TRAJ_HISTORY 200 /* executed moves kept for reverse run */
 
 /* What happens at the end of a move. */
@@ -83,6 +89,7 @@ struct traj_seg {
     double du[PATH_AXES];  /* jump of dp/ds */
     double dk[PATH_AXES];  /* jump of d2p/ds2 */
     double bend;           /* largest group norm of du */
+    double curl;           /* largest group norm of dk, 0 when jerk does not matter */
     double w;              /* half width of the rounding, 0 = none */
     int solo;              /* the rounding overlaps no other */
     double tol_join;       /* tolerance at s0 */
@@ -91,6 +98,7 @@ struct traj_seg {
     uint32_t lo, hi;
     double zone;           /* JOIN_KINK: half width of the region with reduced limits */
     double kink_b;         /* JOIN_KINK: cap of b */
+    int window;            /* JOIN_REST: cycles of the filter from here on, 1 = none */
 };
 
 /* A bound of acceleration that shrinks with the squared speed. */
@@ -98,15 +106,17 @@ struct traj_line {
     double c1, c2;
 };
 
-/* A piece of path with the bounds of motion on it. */
+/* A piece of path with the bounds of motion on it; a cell when k and kr count. */
 struct traj_cell {
     double s0, len;
     double cap;          /* of b */
     struct traj_line up[2], down[2]; /* -(c1 - c2 b) of down <= u <= c1 - c2 b of up, all four lines; c2 >= 0 */
+    double top;          /* speed along s that is never exceeded here */
     double metric;       /* largest |dp/ds| in the feed's metric */
     uint32_t seg;        /* move at s0: feed */
     uint32_t seg2;       /* the other move of a rounding between very different ones, else seg */
     int rest;            /* motion rests at s0 */
+    int window;          /* of the filter, cycles */
     double k;            /* b allowed at s0 when running forward */
     double kr;           /* b allowed at s0 when running backward */
 };
@@ -122,13 +132,23 @@ struct traj_drive {
     double stop_s;     /* come to rest at this place when it lies ahead in the direction of motion */
 };
 
-struct traj_limits {
-    double v[PATH_AXES], a[PATH_AXES], j[PATH_AXES]; /* 0 = unknown: the moves' own limits serve */
+/* One axis or joint in a cell: ranges of its first and second derivative by s, largest third. */
+struct traj_row {
+    double lo1, hi1, lo2, hi2, most3;
+    double v, a, j; /* limits, 0 = none */
+};
+
+/* Mean of the last n values. */
+#define TRAJ_WINDOW 256
+struct traj_filter {
+    double x[TRAJ_WINDOW]; /* relative to base */
+    double base, sum;
+    int n, at, still;      /* still: cycles since the input changed */
 };
 
 struct traj {
     double dt; /* cycle, s */
-    struct traj_limits lim;
+    struct limits lim;
     struct traj_drive drive;
 
     /* moves: first .. cur .. end, free running counters; cur: the move that started last */
@@ -138,8 +158,12 @@ struct traj {
     int hungry;          /* cycles since the last append */
     int tail_forced;     /* s_final was moved to the end of the last move */
 
-    /* cells */
+    /* pieces of path with their own bounds, and the cells made of those that are ripe */
+    uint32_t piece_ripe, piece_end;
     uint32_t cell_first, cell_end;
+    double kin_len;      /* length of the last cell whose joints were sampled */
+    int cut_window;      /* window of the cells being cut */
+    int blocked;         /* the kinematics have no solution right after the last cell */
     uint32_t cut_seg;    /* move that contains cut_s */
     double cut_s;
 
@@ -154,8 +178,10 @@ struct traj {
     double back_scale;
 
     /* motion */
-    double s, v;         /* v >= 0 */
-    double acc;          /* along s, last cycle, signed by the direction of s */
+    double s, v;         /* of step(); v >= 0 */
+    struct traj_filter filter;
+    double place;        /* on the path, behind the filter */
+    double speed, acc;   /* of place, last cycle, signed by the direction of s */
     int dir;             /* +1, -1 */
     uint32_t cell;
     int waiting;         /* at rest before move cur + 1 (cur, at the very start) until released */
@@ -163,10 +189,18 @@ struct traj {
 
     double pos[PATH_AXES]; /* last position */
 
+    /* of the piece being made: too big for the stack of a realtime thread */
+    struct {
+        struct path_jet at[3];
+        struct limits_jet jet[3];
+        struct traj_row rows[PATH_AXES + LIMITS_JOINTS];
+    } scratch;
+
     /* counters of what cost speed, for diagnosis */
     uint64_t n_forced, n_rest, n_portions;
 
     struct traj_seg seg[TRAJ_SEGS];
+    struct traj_cell pieces[TRAJ_PIECES];
     struct traj_cell cells[TRAJ_CELLS];
 };
 
@@ -183,10 +217,22 @@ int64_t traj_waiting(const struct traj *tj);
 void traj_release(struct traj *tj);
 /* Ends a mark. */
 void traj_finish(struct traj *tj);
+/* Takes over a new input (also sets n, 1 to TRAJ_WINDOW): all values are x. */
+void traj_filter_set(struct traj_filter *f, int n, double x);
+/* One cycle: the mean with x. */
+double traj_filter_step(struct traj_filter *f, double x);
+/* The output is the last input. */
+int traj_filter_settled(const struct traj_filter *f);
+/* Cycles of the filter that a motion with speed v, acceleration a and jerk j is best run with. */
+int traj_window(const struct traj *tj, double v, double a, double j);
+/* The path beyond the present place cannot be followed: no solution of the kinematics. */
+int traj_blocked(const struct traj *tj);
 /* At rest (no speed, nothing left in filters). */
 int traj_at_rest(const struct traj *tj);
 /* At rest at the end of all moves. */
 int traj_done(const struct traj *tj);
+/* Acceleration of a move that begins a run, metric units/s^2, with the limit of jerk. */
+double traj_acc(const struct traj *tj, uint32_t index);
 /* Seconds by which the position lags behind what drive asks for. */
 double traj_lag(const struct traj *tj);
 /* Moves that shape the position now: 0 idle, 2 in a rounding, else 1. */

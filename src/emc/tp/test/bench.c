@@ -85,6 +85,46 @@ static double axis_a(int i)
     return active->a[i];
 }
 
+static int joints(void)
+{
+    return active->joints;
+}
+
+static int inverse(const EmcPose *pose, double *q)
+{
+    double p[AXES] = { pose->tran.x, pose->tran.y, pose->tran.z, pose->a, pose->b, pose->c, pose->u, pose->v, pose->w };
+    active->inverses++;
+    return active->inverse(p, q);
+}
+
+static void joint_commands(double *q)
+{
+    memcpy(q, active->q, sizeof active->q);
+}
+
+static void joint_limits(int n, double *v, double *a, double *j)
+{
+    *v = active->jv[n], *a = active->ja[n], *j = active->jj[n];
+}
+
+static double axis_jerk(int i)
+{
+    return active->j[i];
+}
+
+static const struct tp_machine machine = { joints, inverse, joint_commands, joint_limits, axis_jerk };
+
+void bench_joints(struct bench *b, int n, int (*f)(const double p[AXES], double *q))
+{
+    b->joints = n;
+    b->inverse = f;
+}
+
+void bench_joint(struct bench *b, int joint, double v, double a, double j)
+{
+    b->jv[joint] = v, b->ja[joint] = a, b->jj[joint] = j;
+}
+
 void bench_init(struct bench *b, double dt)
 {
     memset(b, 0, sizeof *b);
@@ -119,6 +159,7 @@ void bench_start(struct bench *b, int jerk_on)
     b->status.jerk = 1e9;
     b->status.scurve_peak_scale = 1;
     tpMotFunctions(dio, aio, unlock, unlocked, axis_v, axis_a);
+    tpMotMachine(&machine);
     tpMotData(&b->status, &b->config);
     tpCreate(&b->tp, 2000, 0);
     tpSetCycleTime(&b->tp, b->dt);
@@ -400,6 +441,28 @@ double bench_distance(struct bench *b, const double p[AXES], double *tol)
     return best;
 }
 
+/* Differences of the last positions against limits; noise: rounding of a position, in units of its last bit. */
+static void check_limits(struct bench *b, int row, const double p[4], double lim_v, double lim_a, double lim_j, double rounding)
+{
+    double noise = 4e-16 * (fabs(p[0]) + 1) * rounding, dt = b->dt;
+
+    if (b->have < 2) return;
+    double v = (fabs(p[0] - p[1]) - 2 * noise) / dt / lim_v;
+    if (lim_v <= 0 && p[0] == p[1]) v = 0;
+    if (v > b->worst_v) b->worst_v = v, b->worst_v_at = b->cycles, b->worst_v_axis = row;
+    if (b->have < 3 || lim_a <= 0) return;
+    double a = (fabs(p[0] - 2 * p[1] + p[2]) - 4 * noise) / (dt * dt) / lim_a;
+    if (bench_verbose && a > 1.001)
+        fprintf(stderr, "cycle %llu: row %d acceleration ratio %g, id %d, position %.9g, steps %g %g\n",
+                (unsigned long long)b->cycles, row, a, b->status.id, p[0], p[0] - p[1], p[1] - p[2]);
+    if (a > b->worst_a) b->worst_a = a, b->worst_a_at = b->cycles, b->worst_a_axis = row;
+    if (b->have < 4 || !b->jerk_on || lim_j <= 0) return;
+    double j = (fabs(p[0] - 3 * p[1] + 3 * p[2] - p[3]) - 8 * noise) / (dt * dt * dt) / lim_j;
+    if (bench_verbose && j > 1.001)
+        fprintf(stderr, "cycle %llu: row %d jerk ratio %g, id %d, position %.9g\n", (unsigned long long)b->cycles, row, j, b->status.id, p[0]);
+    if (j > b->worst_j) b->worst_j = j, b->worst_j_at = b->cycles, b->worst_j_axis = row;
+}
+
 void bench_cycle(struct bench *b)
 {
     EmcPose pose;
@@ -414,23 +477,19 @@ void bench_cycle(struct bench *b)
     if (b->have < 4) b->have++;
     b->cycles++;
 
-    int moved = 0;
-    for (int i = 0; i < AXES && b->have >= 2; i++) {
-        double noise = 4e-16 * (fabs(now[i]) + 1), d1 = fabs(b->p[0][i] - b->p[1][i]);
-        if (d1 > 0) moved = 1;
-        double v = (d1 - noise) / b->dt / (b->v[i] > 0 ? b->v[i] : 1e-30);
-        if (b->v[i] <= 0 && d1 == 0) v = 0;
-        if (v > b->worst_v) b->worst_v = v, b->worst_v_at = b->cycles, b->worst_v_axis = i;
-        if (b->have < 3 || b->a[i] <= 0) continue;
-        double a = (fabs(b->p[0][i] - 2 * b->p[1][i] + b->p[2][i]) - 4 * noise) / (b->dt * b->dt) / b->a[i];
-        if (bench_verbose && a > 1.001)
-            fprintf(stderr, "cycle %llu: axis %d acceleration ratio %g, id %d, position %.9g, steps %g %g\n",
-                    (unsigned long long)b->cycles, i, a, b->status.id, now[i], b->p[0][i] - b->p[1][i], b->p[1][i] - b->p[2][i]);
-        if (a > b->worst_a) b->worst_a = a, b->worst_a_at = b->cycles, b->worst_a_axis = i;
-        if (b->have < 4 || !b->jerk_on || b->j[i] <= 0) continue;
-        double j = fabs(b->p[0][i] - 3 * b->p[1][i] + 3 * b->p[2][i] - b->p[3][i]) - 8 * noise;
-        j = j / (b->dt * b->dt * b->dt) / b->j[i];
-        if (j > b->worst_j) b->worst_j = j, b->worst_j_at = b->cycles, b->worst_j_axis = i;
+    int moved = memcmp(b->p[0], b->p[1], sizeof b->p[0]) != 0;
+    for (int i = 0; i < AXES; i++) {
+        double p[4] = { b->p[0][i], b->p[1][i], b->p[2][i], b->p[3][i] };
+        check_limits(b, i, p, b->v[i], b->a[i], b->j[i], 1);
+    }
+    if (b->joints) {
+        memmove(b->qs[1], b->qs[0], sizeof b->qs[0] * 3);
+        b->inverse(now, b->q);
+        memcpy(b->qs[0], b->q, sizeof b->q);
+        for (int i = 0; i < b->joints; i++) {
+            double p[4] = { b->qs[0][i], b->qs[1][i], b->qs[2][i], b->qs[3][i] };
+            check_limits(b, AXES + i, p, b->jv[i], b->ja[i], b->jj[i], 100);
+        }
     }
     if (moved) b->moving++;
     if (moved && b->cycles % (uint64_t)b->check_every == 0) {

@@ -14,6 +14,7 @@
 #include "tp.h"
 
 #define AXES 9
+#define JOINTS 16
 
 /* A move as programmed. */
 struct prog {
@@ -39,6 +40,13 @@ struct bench {
     double v[AXES], a[AXES], j[AXES];
     int jerk_on;
 
+    /* joints behind the axes; none: axes only */
+    int joints;
+    int (*inverse)(const double p[AXES], double *q);
+    double jv[JOINTS], ja[JOINTS], jj[JOINTS]; /* limits, jerk 0: none */
+    double q[JOINTS], qs[4][JOINTS];           /* last joint positions */
+    uint64_t inverses;                         /* calls of the inverse by the planner */
+
     struct prog *prog;
     int n, room, next; /* moves, allocated, next to send */
     double at[AXES];   /* end of the program so far */
@@ -51,7 +59,7 @@ struct bench {
     double worst_dev;                 /* deviation / tolerance; exact moves: deviation / 1e-6 */
     double worst_off;                 /* largest deviation, units */
     uint64_t worst_v_at, worst_a_at, worst_j_at, worst_dev_at;
-    int worst_v_axis, worst_a_axis, worst_j_axis;
+    int worst_v_axis, worst_a_axis, worst_j_axis; /* joint n: AXES + n */
     int check_every;  /* deviation is measured each so many cycles */
     int near;         /* move the last position was near to */
     uint64_t moving;  /* cycles with motion */
@@ -70,6 +78,9 @@ void bench_init(struct bench *b, double dt);
 void bench_free(struct bench *b);
 /* Limits of an axis; jerk 0: none. */
 void bench_axis(struct bench *b, int axis, double v, double a, double j);
+/* Kinematics; before bench_start. */
+void bench_joints(struct bench *b, int joints, int (*inverse)(const double p[AXES], double *q));
+void bench_joint(struct bench *b, int joint, double v, double a, double j);
 /* After the limits: makes the planner; jerk_on selects the jerk-limited planner. */
 void bench_start(struct bench *b, int jerk_on);
 

@@ -134,13 +134,14 @@ static void sample_path(struct traj *tj, double from, double to)
 static void run(struct bench *b, const char *name, int per_cycle)
 {
     static struct traj tj;
-    double zero[PATH_AXES] = { 0 }, last = 0, worst_a = 0, p1[PATH_AXES], p2[PATH_AXES];
+    double zero[PATH_AXES] = { 0 }, last = 0, worst_a = 0, worst_j = 0, p1[PATH_AXES], p2[PATH_AXES], p3[PATH_AXES];
     uint64_t cycles = 0, moving = 0;
     struct timespec t0, t1;
     double busy = 0, most = 0;
 
     traj_init(&tj, dt);
     for (int i = 0; i < PATH_AXES; i++) tj.lim.v[i] = vel, tj.lim.a[i] = acc, tj.lim.j[i] = jerk;
+    tj.lim.jerk_on = jerk > 0;
     traj_reset(&tj, zero);
     tj.drive.vlimit = 1e99;
     tj.drive.max_scale = 1;
@@ -148,6 +149,7 @@ static void run(struct bench *b, const char *name, int per_cycle)
     record(0, zero, 1e9, 1);
     memset(p1, 0, sizeof p1);
     memset(p2, 0, sizeof p2);
+    memset(p3, 0, sizeof p3);
     while (cycles < 100000000) {
         clock_gettime(CLOCK_MONOTONIC, &t0);
         for (int i = 0; i < per_cycle && b->next < b->n && tj.end - tj.cur < 1780; i++) {
@@ -171,14 +173,17 @@ static void run(struct bench *b, const char *name, int per_cycle)
         if (us > most) most = us;
         if (tj.s > last) sample_path(&tj, last, tj.s), last = tj.s, moving++;
         for (int i = 0; i < 3; i++) worst_a = fmax(worst_a, fabs(tj.pos[i] - 2 * p1[i] + p2[i]) / (dt * dt));
+        for (int i = 0; i < 3; i++)
+            worst_j = fmax(worst_j, fabs(tj.pos[i] - 3 * p1[i] + 3 * p2[i] - p3[i]) / (dt * dt * dt));
+        memcpy(p3, p2, sizeof p3);
         memcpy(p2, p1, sizeof p2);
         memcpy(p1, tj.pos, sizeof p1);
         cycles++;
         if (b->next >= b->n && traj_done(&tj)) break;
     }
     double bound = lower_bound(), t = cycles * dt;
-    printf("%-26s %6d moves %9.4f s, bound %9.4f s, ratio %.4f; acceleration %.5f; %5.2f us/cycle, worst %6.1f; rests %llu forced %llu\n",
-           name, b->n, t, bound, t / bound, worst_a / acc, busy / cycles, most, (unsigned long long)tj.n_rest, (unsigned long long)tj.n_forced);
+    printf("%-26s %6d moves %9.4f s, bound %9.4f s, ratio %.4f; acceleration %.5f jerk %.4f; %5.2f us/cycle, worst %6.1f; rests %llu forced %llu\n",
+           name, b->n, t, bound, t / bound, worst_a / acc, jerk > 0 ? worst_j / jerk : 0, busy / cycles, most, (unsigned long long)tj.n_rest, (unsigned long long)tj.n_forced);
     fflush(stdout);
 }
 

@@ -2,7 +2,7 @@
  *
  * property.c - random programs with random events; every cycle must keep the promises.
  *
- *   property [-s FIRST] [-n COUNT] [-j] [-v] [-1 SEED]
+ *   property [-s FIRST] [-n COUNT] [-j] [-k kinematics] [-v] [-1 SEED]
  *
  * Each seed makes a machine (limits of nine axes), a program (lines, arcs,
  * helices, short segments; exact and blended) and a story (overrides, pauses,
@@ -25,6 +25,79 @@ struct totals {
     double v, a, j, dev;
 };
 
+/* ---- kinematics ---------------------------------------------------------------- */
+
+/* X by joint 0, Y by joints 1 and 2, Z by 3. */
+static int gantry(const double p[AXES], double *q)
+{
+    q[0] = p[0], q[1] = q[2] = p[1], q[3] = p[2];
+    return 0;
+}
+
+static int corexy(const double p[AXES], double *q)
+{
+    q[0] = p[0] + p[1], q[1] = p[0] - p[1], q[2] = p[2];
+    return 0;
+}
+
+/* Three vertical rails on a circle of radius 130, rods of 269. */
+static int delta(const double p[AXES], double *q)
+{
+    for (int i = 0; i < 3; i++) {
+        double t = i * 2 * M_PI / 3, x = 130 * cos(t) - p[0], y = 130 * sin(t) - p[1], h = 269.0 * 269.0 - x * x - y * y;
+        if (h < 0) return -1;
+        q[i] = p[2] + sqrt(h);
+    }
+    return 0;
+}
+
+/* Table that tilts (A) and turns (C); the pose is the tool's in the work piece. */
+static int five_axis(const double p[AXES], double *q)
+{
+    double a = p[3] * M_PI / 180, c = p[5] * M_PI / 180, x = p[0] * cos(c) - p[1] * sin(c), y = p[0] * sin(c) + p[1] * cos(c);
+    double z = p[2] + 20;
+    q[0] = x, q[1] = y * cos(a) - z * sin(a), q[2] = y * sin(a) + z * cos(a) - 20, q[3] = p[3], q[4] = p[5];
+    return 0;
+}
+
+/* Two links of 200 in the plane. */
+static int scara(const double p[AXES], double *q)
+{
+    double x = p[0] + 230, y = p[1], k = (x * x + y * y - 80000) / 80000;
+    if (fabs(k) > 1) return -1;
+    double elbow = acos(k);
+    q[0] = (atan2(y, x) - atan2(200 * sin(elbow), 200 + 200 * cos(elbow))) * 180 / M_PI;
+    q[1] = elbow * 180 / M_PI;
+    q[2] = p[2];
+    return 0;
+}
+
+static const struct kins {
+    const char *name;
+    int joints;
+    int (*inverse)(const double p[AXES], double *q);
+    int axes;     /* groups that move: 1 xyz, 2 abc */
+    double box;   /* |x|, |y|, |z| stay within, 0 = anywhere */
+} all_kins[] = {
+    { "gantry", 4, gantry, 1, 0 },      { "corexy", 3, corexy, 1, 0 }, { "delta", 3, delta, 1, 70 },
+    { "five-axis", 5, five_axis, 3, 150 }, { "scara", 3, scara, 1, 90 },
+};
+static const struct kins *kins; /* of the machines, NULL axes only */
+
+/* Is p, and all that is nearer than reach, on the machine? */
+static int on_machine(const double p[3], double reach)
+{
+    for (int i = 0; kins && kins->box > 0 && i < 3; i++)
+        if (fabs(p[i]) + reach > kins->box) return 0;
+    return 1;
+}
+
+static void onto_machine(double p[AXES])
+{
+    for (int i = 0; kins && kins->box > 0 && i < 3; i++) p[i] = fmax(-kins->box, fmin(kins->box, p[i]));
+    if (kins && kins->axes & 2) p[3] = fmax(-80, fmin(80, p[3]));
+}
+
 static void random_machine(struct bench *b, uint64_t *r, int jerk)
 {
     static const double periods[] = { 0.001, 0.001, 0.0005, 0.002, 0.00025 };
@@ -37,6 +110,13 @@ static void random_machine(struct bench *b, uint64_t *r, int jerk)
     }
     static const double max_scale[] = { 1, 1.2, 2, 5 };
     b->config.maxFeedScale = max_scale[rnd_int(r, 4)];
+    if (kins) {
+        bench_joints(b, kins->joints, kins->inverse);
+        for (int n = 0; n < kins->joints; n++) {
+            double vj = rnd_log(r, 5, 1000), aj = rnd_log(r, 20, 10000);
+            bench_joint(b, n, vj, aj, rnd_int(r, 5) ? aj * rnd_log(r, 5, 200) : 0);
+        }
+    }
     bench_start(b, jerk);
 }
 
@@ -66,6 +146,7 @@ static void random_line(struct bench *b, uint64_t *r, double scale, int axes, do
     if (axes & 8) p[rnd_int(r, 3)] += len * (rnd_int(r, 2) ? 1 : -1);
     if (axes & 2) for (int i = 3; i < 6; i++) p[i] += rnd_range(r, -1, 1) * len;
     if (axes & 4) for (int i = 6; i < 9; i++) p[i] += rnd_range(r, -1, 1) * len;
+    onto_machine(p);
     bench_line(b, p, EMC_MOTION_TYPE_FEED, feed, term, tol);
 }
 
@@ -100,6 +181,11 @@ static void random_arc(struct bench *b, uint64_t *r, double scale, int axes, dou
     }
     if (axes & 2) for (int i = 3; i < 6; i++) p[i] += rnd_range(r, -1, 1) * scale;
     if (axes & 4) for (int i = 6; i < 9; i++) p[i] += rnd_range(r, -1, 1) * scale;
+    if (!on_machine(c, radius + fabs(rise))) {
+        random_line(b, r, scale, axes, feed, term, tol);
+        return;
+    }
+    onto_machine(p);
     bench_arc(b, p, c, n, turn < 0 ? -1 - turns : turns, feed, term, tol);
 }
 
@@ -117,6 +203,7 @@ static void random_chords(struct bench *b, uint64_t *r, double feed, double tol)
         p[1] += radius * (cos(f2 * t + ph) - cos(ph));
         p[2] += 0.2 * radius * sin(t);
         if (five) p[3] += 20 * sin(t), p[5] += 30 * (1 - cos(t));
+        if (!on_machine(p, 0)) break;
         for (int k = 0; k < AXES; k++) p[k] = floor(p[k] * 1e4 + 0.5) / 1e4;
         bench_line(b, p, EMC_MOTION_TYPE_FEED, feed, EMCMOT_TERM_COND_BLEND, tol);
     }
@@ -130,6 +217,8 @@ static void random_program(struct bench *b, uint64_t *r)
         int term = rnd_int(r, 6) ? EMCMOT_TERM_COND_BLEND : rnd_int(r, 2) ? EMCMOT_TERM_COND_STOP : EMCMOT_TERM_COND_EXACT;
         int axes = rnd_int(r, 3) ? 1 : rnd_int(r, 2) ? 8 : 1 + rnd_int(r, 7), kind = rnd_int(r, 6), n = 1 + rnd_int(r, 15);
         if (term != EMCMOT_TERM_COND_BLEND) tol = 0;
+        if (kins) axes = axes & 8 ? kins->axes & 2 ? 3 : 1 : axes & kins->axes;
+        if (!axes) axes = 1;
         if (kind == 0) {
             random_chords(b, r, feed, tol);
             continue;
@@ -142,6 +231,7 @@ static void random_program(struct bench *b, uint64_t *r)
                 double p[AXES];
                 memcpy(p, b->at, sizeof p);
                 for (int k = 0; k < 3; k++) p[k] += rnd_range(r, -1, 1) * scale;
+                onto_machine(p);
                 bench_line(b, p, EMC_MOTION_TYPE_TRAVERSE, 0, term, tol);
             }
         }
@@ -207,6 +297,7 @@ static int run_seed(uint64_t seed, int jerk, int verbose, struct totals *sum)
             bench_resync(&b);
             memcpy(p, b.at, sizeof p);
             p[0] += 1;
+            onto_machine(p);
             bench_line(&b, p, EMC_MOTION_TYPE_FEED, 10, EMCMOT_TERM_COND_BLEND, 0.1);
             aborted = 0, paused = 0;
             abort_allowed = 0;
@@ -249,11 +340,19 @@ int main(int argc, char **argv)
     int jerk = 0, verbose = 0, c, failed = 0;
     struct totals sum = { 0, 0, 0, 0, 0, 0, 0 };
 
-    while ((c = getopt(argc, argv, "s:n:jv1:")) != -1) {
+    while ((c = getopt(argc, argv, "s:n:jk:v1:")) != -1) {
         switch (c) {
         case 's': first = strtoull(optarg, NULL, 10); break;
         case 'n': count = strtoull(optarg, NULL, 10); break;
         case 'j': jerk = 1; break;
+        case 'k':
+            for (size_t i = 0; i < sizeof all_kins / sizeof *all_kins; i++)
+                if (!strcmp(all_kins[i].name, optarg)) kins = &all_kins[i];
+            if (!kins) {
+                fprintf(stderr, "%s: no kinematics of this name\n", optarg);
+                return 2;
+            }
+            break;
         case 'v': verbose = 1; bench_verbose = 1; break;
         case '1': first = strtoull(optarg, NULL, 10), count = 1, verbose = 1; break;
         default: fprintf(stderr, "usage: %s [-s first] [-n count] [-j] [-v] [-1 seed]\n", argv[0]); return 2;
