@@ -32,6 +32,8 @@ std::string upper(std::string s) {
     return s;
 }
 
+std::string folder_of(const std::string &file) { return file.substr(0, file.rfind('/') + 1); }
+
 long number(const std::string &s) { return strtol(s.c_str(), nullptr, 0); }
 
 using Words = std::vector<std::string>;
@@ -55,7 +57,8 @@ bool read_lines(const std::string &file, std::vector<Words> *out) {
     return true;
 }
 
-std::optional<nml::BufferLine> parse_buffer(const Words &w) {
+// folder: of the .nml file, for relative names in it.
+std::optional<nml::BufferLine> parse_buffer(const Words &w, const std::string &folder) {
     if (w.size() < 10) return {};
     nml::BufferLine b;
     b.name = w[1];
@@ -88,7 +91,10 @@ std::optional<nml::BufferLine> parse_buffer(const Words &w) {
         else if (is("ENC_MAX_SIZE=")) b.enc_max_size = number(v);
         else if (is("BSEM=")) b.bsem = static_cast<int>(number(v));
         else if (is("BRPI=")) b.poll_interval = strtod(v.c_str(), nullptr);
-        else if (is("FORCE_TYPE=")) b.force_type = static_cast<int>(number(v));
+        else if (is("PASSWD=")) {
+            b.passwd = w[i].substr(w[i].find('=') + 1);
+            if (!b.passwd.empty() && b.passwd[0] != '/') b.passwd = folder + b.passwd;
+        } else if (is("FORCE_TYPE=")) b.force_type = static_cast<int>(number(v));
         else if (o == "MUTEX=NONE") b.lock = nml::Lock::none;
         else if (o == "MUTEX=NO_INTERRUPTS" || o == "MUTEX=NO_SWITCHING") b.lock = nml::Lock::refused;
     }
@@ -157,7 +163,7 @@ std::optional<nml::Connection> nml::find_connection(const std::string &file, con
                         process.c_str(), buffer.c_str(), file.c_str());
         return {};
     }
-    auto bl = parse_buffer(*b);
+    auto bl = parse_buffer(*b, folder_of(file));
     if (!bl) return {};
     auto pl = parse_process(*p, *bl);
     if (!pl) return {};
@@ -172,7 +178,7 @@ std::vector<nml::BufferLine> nml::buffers_of(const std::string &file) {
     std::vector<BufferLine> out;
     if (read_lines(file, &lines))
         for (const Words &w : lines)
-            if (w[0] == "B") if (auto b = parse_buffer(w)) out.push_back(*b);
+            if (w[0] == "B") if (auto b = parse_buffer(w, folder_of(file))) out.push_back(*b);
     return out;
 }
 

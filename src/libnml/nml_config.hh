@@ -34,6 +34,7 @@ struct BufferLine {
     double poll_interval = 0.02; // s, blocking read of a remote buffer
     int force_type = 0;
     double version = 0;
+    std::string passwd;     // file with the logins of remote clients; empty: none needed
 };
 
 struct ProcessLine {

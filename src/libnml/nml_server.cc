@@ -13,13 +13,27 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <set>
 
+#include "nml_auth.hh"
 #include "nml_code.hh"
 #include "nml_wire.hh"
 #include "rcs_print.hh"
 
 namespace nml {
+
+constexpr size_t MOST_CLIENTS = 200, MOST_UNREAD = 1000000; // connections; bytes of answers that wait
+constexpr int WAKE_MS = 200, PENDING_MS = 5;
+
+static int64_t wall_ns() {
+    timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return t.tv_sec * 1000000000LL + t.tv_nsec;
+}
+
+// Text field of `room` bytes that need not end with a zero.
+static std::string text_of(const unsigned char *p, size_t room) { return std::string(reinterpret_cast<const char *>(p), strnlen(reinterpret_cast<const char *>(p), room)); }
 
 Server::~Server() {
     for (auto &l : listeners_) close(l.first);
@@ -33,29 +47,45 @@ void Server::add(NML &channel, const BufferLine &line) {
 bool Server::listen(const std::string &address) {
     std::set<int> ports;
     for (auto &b : buffers_) ports.insert(b.first.first);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    if (inet_pton(AF_INET, address == "*" ? "0.0.0.0" : address.c_str(), &at.sin_addr) != 1) {
+        rcs_print_error("NML server: '%s' is no address of this computer\n", address.c_str());
+        return false;
+    }
+    bool good = true;
+    for (auto &b : buffers_) {
+        std::string problem;
+        if (!b.second.line.passwd.empty()) read_logins(b.second.line.passwd, &problem);
+        else if (!is_loopback(reinterpret_cast<sockaddr *>(&at))) problem = "other computers need a password: add passwd=FILE to its B line";
+        if (problem.empty()) continue;
+        rcs_print_error("NML server: buffer %s is not served: %s\n", b.second.line.name.c_str(), problem.c_str());
+        ports.erase(b.first.first);
+        good = false;
+    }
     for (int port : ports) {
         int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0), one = 1;
-        sockaddr_in at{};
-        at.sin_family = AF_INET;
         at.sin_port = htons(static_cast<uint16_t>(instance_port(port)));
-        inet_pton(AF_INET, address.c_str(), &at.sin_addr);
         setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
-        if (bind(fd, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0 || ::listen(fd, 5) != 0) {
+        if (bind(fd, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0 || ::listen(fd, SOMAXCONN) != 0) {
             rcs_print_error("NML server: port %d: %s\n", instance_port(port), strerror(errno));
             close(fd);
+            good = false;
             continue;
         }
         listeners_.emplace_back(fd, port);
     }
-    return !listeners_.empty();
+    return good && !listeners_.empty();
 }
 
-void Server::reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id) {
+// Answers a read. only_new: nothing is answered, and false returned, when there is no new message.
+bool Server::reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id, bool only_new) {
     Transport *t = b.channel->transport();
     std::vector<unsigned char> raw(static_cast<size_t>(t->max_message())), body;
     long size = 0;
     t->set_last_id(last_id);
     CMS_STATUS s = access == ACCESS_PEEK ? t->peek(raw.data(), &size) : t->read(raw.data(), &size);
+    if (only_new && s == CMS_READ_OLD) return false;
     if (s == CMS_READ_OK) {
         body = encode_message(set_, *reinterpret_cast<NMLmsg *>(raw.data()));
         if (body.empty()) s = CMS_SERVER_SIDE_ERROR;
@@ -68,6 +98,24 @@ void Server::reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, 
     put_word(c.out, static_cast<uint32_t>(t->last_id()));
     put_word(c.out, static_cast<uint32_t>(was_read));
     c.out.insert(c.out.end(), body.begin(), body.end());
+    return true;
+}
+
+void Server::try_pending(Client &c) {
+    Pending &p = c.pending;
+    bool late = p.until >= 0 && wall_ns() >= p.until;
+    if (reply_read(c, p.serial, buffers_.at({c.port, p.number}), p.access, p.last_id, !late)) p.any = false;
+}
+
+bool Server::login(Client &c, const unsigned char *data, Buffer &b) {
+    std::string problem, name = text_of(data, 16), answer(reinterpret_cast<const char *>(data) + 16, 16), challenge = std::move(c.challenge);
+    c.challenge.clear(); // each is good for one answer
+    if (challenge.empty()) return false;
+    bool good = false;
+    for (const Login &l : read_logins(b.line.passwd, &problem))
+        good |= l.name == name && equal_secret(hmac(l.password, challenge + name).substr(0, 16), answer);
+    if (!good) rcs_print_error("NML server: login of '%s' from %s to %s refused%s%s\n", name.c_str(), c.peer.c_str(), b.line.name.c_str(), problem.empty() ? "" : ": ", problem.c_str());
+    return good;
 }
 
 // One request. False: the client is to be dropped.
@@ -81,12 +129,22 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
         return true;
     }
     Buffer &b = it->second;
+    if (!b.line.passwd.empty() && !c.trusted.count(static_cast<int>(number)) && type != REQ_GET_KEYS && type != REQ_LOGIN && type != REQ_CLOSE_CHANNEL) {
+        rcs_print_error("NML server: %s wants %s without a login\n", c.peer.c_str(), b.line.name.c_str());
+        return false;
+    }
     Transport *t = b.channel->transport();
     int n = 0;
     long bytes = 0;
     switch (type) {
-    case REQ_READ: reply_read(c, serial, b, w3, static_cast<int>(w4)); return true;
-    case REQ_BLOCKING_READ: reply_read(c, serial, b, w3, static_cast<int>(w4)); return true; // the client polls
+    case REQ_READ: reply_read(c, serial, b, w3, static_cast<int>(w4), false); return true;
+    case REQ_BLOCKING_READ:
+        {
+            int32_t ms = static_cast<int32_t>(get_word(data));
+            c.pending = {true, serial, w3, static_cast<int>(w4), static_cast<int>(number), ms < 0 ? -1 : wall_ns() + ms * 1000000LL};
+            try_pending(c);
+            return true;
+        }
     case REQ_WRITE:
         {
             std::vector<unsigned char> raw(static_cast<size_t>(std::max(t->max_message(), static_cast<long>(sizeof(NMLmsg)))));
@@ -103,8 +161,19 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
     case REQ_CHECK_IF_READ: { CMS_STATUS s = t->check_if_read(&n); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)}); return true; }
     case REQ_CLEAR: words({serial, static_cast<uint32_t>(t->clear())}); return true;
     case REQ_CLOSE_CHANNEL: return false;
-    case REQ_GET_KEYS: words({serial, 0, 0, 0, 0}); return true;
-    case REQ_LOGIN: words({serial, 1}); return true;
+    case REQ_GET_KEYS:
+        c.challenge = random_bytes(16);
+        words({serial});
+        c.out.insert(c.out.end(), c.challenge.begin(), c.challenge.end());
+        return true;
+    case REQ_LOGIN:
+        if (b.line.passwd.empty()) { words({serial, 1}); return true; }
+        {
+            bool good = login(c, data, b);
+            if (good) c.trusted.insert(static_cast<int>(number));
+            words({serial, good ? 1u : 0u});
+            return true;
+        }
     case REQ_SET_SUBSCRIPTION: case REQ_CANCEL_SUBSCRIPTION: words({serial, 0}); return true; // not offered: the client polls
     case REQ_GET_BUF_NAME:
         {
@@ -125,7 +194,7 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
 // Takes whole requests from the input. False: garbage.
 bool Server::consume(Client &c) {
     for (;;) {
-        if (c.in.size() < REQUEST_BYTES) return true;
+        if (c.in.size() < REQUEST_BYTES || c.pending.any) return true;
         uint32_t type = get_word(c.in.data() + 4), w4 = get_word(c.in.data() + 16);
         size_t extra = 0;
         switch (type) {
@@ -146,16 +215,44 @@ bool Server::consume(Client &c) {
             return false;
         }
         c.in.erase(c.in.begin(), c.in.begin() + static_cast<std::ptrdiff_t>(REQUEST_BYTES + extra));
-        if (c.out.size() > 1000000) return false; // does not read its answers
+        if (c.out.size() > MOST_UNREAD) {
+            rcs_print_error("NML server: %s does not read its answers; dropped\n", c.peer.c_str());
+            return false;
+        }
     }
+}
+
+void Server::accept_from(int listener, int port) {
+    sockaddr_in from{};
+    socklen_t len = sizeof from;
+    int fd = accept4(listener, reinterpret_cast<sockaddr *>(&from), &len, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (fd < 0) return;
+    char text[INET_ADDRSTRLEN] = "?";
+    inet_ntop(AF_INET, &from.sin_addr, text, sizeof text);
+    Client c{};
+    c.fd = fd;
+    c.port = port;
+    c.peer = std::string(text) + ":" + std::to_string(ntohs(from.sin_port));
+    if (clients_.size() >= MOST_CLIENTS) {
+        rcs_print_error("NML server: %s is one connection too many; dropped\n", c.peer.c_str());
+        close(fd);
+        return;
+    }
+    int one = 1;
+    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    clients_.push_back(std::move(c));
 }
 
 void Server::run(const volatile int *stop) {
     while (!*stop) {
+        int wake = WAKE_MS;
         std::vector<pollfd> fds;
         for (auto &l : listeners_) fds.push_back({l.first, POLLIN, 0});
-        for (Client &c : clients_) fds.push_back({c.fd, static_cast<short>(POLLIN | (c.out.empty() ? 0 : POLLOUT)), 0});
-        if (::poll(fds.data(), fds.size(), 200) <= 0) continue;
+        for (Client &c : clients_) {
+            fds.push_back({c.fd, static_cast<short>(POLLIN | (c.out.empty() ? 0 : POLLOUT)), 0});
+            if (c.pending.any) wake = PENDING_MS;
+        }
+        if (::poll(fds.data(), fds.size(), wake) < 0) continue;
         size_t n = listeners_.size();
         std::vector<Client> kept;
         for (size_t i = 0; i < clients_.size(); i++) {
@@ -172,6 +269,14 @@ void Server::run(const volatile int *stop) {
                     good = r < 0 && (errno == EAGAIN || errno == EINTR);
                 }
             }
+            if (good && c.pending.any) {
+                try_pending(c);
+                if (!c.pending.any) good = consume(c); // what came meanwhile
+                if (c.in.size() > MOST_UNREAD) {
+                    rcs_print_error("NML server: %s sends without waiting for its answer; dropped\n", c.peer.c_str());
+                    good = false;
+                }
+            }
             if (good && !c.out.empty()) {
                 ssize_t r = send(c.fd, c.out.data(), c.out.size(), MSG_NOSIGNAL);
                 if (r > 0) c.out.erase(c.out.begin(), c.out.begin() + r);
@@ -182,16 +287,7 @@ void Server::run(const volatile int *stop) {
         }
         clients_.swap(kept);
         for (size_t i = 0; i < n; i++) {
-            if (!(fds[i].revents & POLLIN)) continue;
-            sockaddr_in from{};
-            socklen_t len = sizeof from;
-            int fd = accept4(listeners_[i].first, reinterpret_cast<sockaddr *>(&from), &len, SOCK_CLOEXEC | SOCK_NONBLOCK);
-            if (fd < 0) continue;
-            int one = 1;
-            setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
-            char text[INET_ADDRSTRLEN] = "?";
-            inet_ntop(AF_INET, &from.sin_addr, text, sizeof text);
-            clients_.push_back({fd, listeners_[i].second, std::string(text) + ":" + std::to_string(ntohs(from.sin_port)), {}, {}});
+            if (fds[i].revents & POLLIN) accept_from(listeners_[i].first, listeners_[i].second);
         }
     }
 }

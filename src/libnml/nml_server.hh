@@ -2,10 +2,14 @@
 //
 // nml_server.hh - serves local buffers to clients over TCP. One thread, one poll loop; a
 // client that sends what is no request is dropped with a log line and disturbs nobody.
+//
+// Buffers with passwd=FILE want a login first: GET_KEYS gives 16 random bytes, LOGIN brings a name
+// and the first 16 bytes of HMAC-SHA256(password, random bytes + name); see nml_auth.hh.
 #ifndef KERF_NML_SERVER_HH
 #define KERF_NML_SERVER_HH
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,16 +23,29 @@ public:
     ~Server();
     // The channel (not owned) answers requests for buffer `number` on `port`.
     void add(NML &channel, const BufferLine &line);
-    // Opens the ports on `address` (default: this machine only). False when none could be opened.
+    // Opens the ports on `address`, "*" for all of this computer's. False when one could not be
+    // opened. Other computers are let in only with a password: each buffer must have passwd=.
     bool listen(const std::string &address = "127.0.0.1");
     // Until *stop is set. Wakes at least every 200 ms of wall time to look at it.
     void run(const volatile int *stop);
 private:
     struct Buffer { NML *channel; BufferLine line; };
-    struct Client { int fd, port; std::string peer; std::vector<unsigned char> in, out; };
+    // A read that waits for a message, until `until` (ns of wall time, negative: for ever).
+    struct Pending { bool any = false; uint32_t serial = 0, access = 0; int last_id = 0, number = 0; int64_t until = 0; };
+    struct Client {
+        int fd, port;
+        std::string peer;
+        std::set<int> trusted; // numbers of the buffers with passwd= that it has logged in to
+        std::string challenge;
+        std::vector<unsigned char> in, out;
+        Pending pending;
+    };
+    void accept_from(int listener, int port);
+    bool login(Client &c, const unsigned char *data, Buffer &b);
+    void try_pending(Client &c);
     bool consume(Client &c);
     bool answer(Client &c, const unsigned char *head, const unsigned char *data, size_t size);
-    void reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id);
+    bool reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id, bool only_new);
     const MessageSet &set_;
     std::map<std::pair<int, int>, Buffer> buffers_; // (port, number)
     std::vector<std::pair<int, int>> listeners_;    // (fd, port)

@@ -17,6 +17,7 @@
 #include <ctime>
 
 #include "kerf_clock.h"
+#include "nml_auth.hh"
 #include "nml_code.hh"
 #include "nml_transport.hh"
 #include "nml_wire.hh"
@@ -168,8 +169,30 @@ private:
             }
         }
         freeaddrinfo(found);
+        if (fd_ >= 0 && !conn_.buffer.passwd.empty() && !login()) {
+            rcs_print_error("NML: the server of buffer %s at %s refuses the login of %s\n", conn_.buffer.name.c_str(), conn_.buffer.host.c_str(), conn_.buffer.passwd.c_str());
+            drop();
+            return false;
+        }
         if (fd_ < 0) rcs_print_error("NML: no server for buffer %s at %s port %s\n", conn_.buffer.name.c_str(), conn_.buffer.host.c_str(), port.c_str());
         return fd_ >= 0;
+    }
+
+    // Answers the server's challenge; the password itself stays here.
+    bool login() {
+        std::string problem;
+        std::vector<Login> logins = read_logins(conn_.buffer.passwd, &problem);
+        if (logins.empty()) { rcs_print_error("NML: %s\n", problem.c_str()); return false; }
+        std::string name = logins[0].name.substr(0, 16);
+        std::vector<unsigned char> body(16), keys(20), result(8);
+        std::copy(conn_.buffer.name.begin(), conn_.buffer.name.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(16, conn_.buffer.name.size())), body.begin());
+        if (exchange(REQ_GET_KEYS, 0, 0, body, keys.data(), keys.size()) != CMS_STATUS_NOT_SET) return false;
+        std::string answer = hmac(logins[0].password, std::string(keys.begin() + 4, keys.end()) + name).substr(0, 16);
+        body.assign(32, 0);
+        std::copy(name.begin(), name.end(), body.begin());
+        std::copy(answer.begin(), answer.end(), body.begin() + 16);
+        if (exchange(REQ_LOGIN, 0, 0, body, result.data(), result.size()) != CMS_STATUS_NOT_SET) return false;
+        return get_word(result.data() + 4) == 1;
     }
 
     void drop() {

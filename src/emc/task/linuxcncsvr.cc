@@ -75,7 +75,7 @@ int main(int argc, char **argv) {
     for (auto &c : channels)
         for (auto &l : lines)
             if (l.name == c->buffer_name()) server.add(*c, l);
-    server.listen();
+    server.listen(ini.findStringV("NML_BIND", "EMC", "127.0.0.1"));
     server.run(&stop);
     return 0;
 }

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+import hashlib
+import hmac
 import re
 import subprocess
 import sys
@@ -61,3 +63,29 @@ except OSError:
 again = clock.run(["linuxcncrsh", "-q", "-p", str(six.port), "--", "-ini", "mill.ini"], stderr=subprocess.PIPE, text=True)
 print("port taken:", again.returncode, str(six.port) in again.stderr)
 print(clock.run(["linuxcncrsh", "--", "-ini", "none.ini"], stderr=subprocess.DEVNULL).returncode, six.stop(), server.stop())
+
+# Other addresses: only with passwords of one's own, which do not travel.
+done = clock.run(["linuxcncrsh", "-q", "-p", str(free_port()), "-b", "*", "--", "-ini", "mill.ini"], stderr=subprocess.PIPE, text=True)
+print("default passwords on all addresses:", done.returncode, "--connectpw" in done.stderr)
+wide = Server("-b", "*", "-w", "mine", "-e", "minetoo", "-4")
+a = Client(wide, enable=False)
+
+
+def answer(password):
+    return hmac.new(password.encode(), a.say("GET CHALLENGE")[0].split()[1].encode(), hashlib.sha256).hexdigest()
+
+
+first = answer("mine")
+print("answer:", a.say(f"HELLO {first} x 1"), "again:", a.say(f"HELLO {first} x 1"), "wrong:", a.say(f"HELLO {answer('yours')} x 1"))
+print("enable:", a.say(f"HELLO {answer('mine')} x 1"), a.say(f"SET ENABLE {answer('minetoo')}", "GET ENABLE"))
+print("clear text from this computer:", a.say("HELLO mine x 1", "SET ENABLE minetoo", "GET ENABLE"))
+here = socket.gethostbyname(socket.gethostname())
+if not here.startswith("127."):
+    far = socket.create_connection((here, wide.port))
+    far.sendall(b"HELLO mine x 1\r\n")
+    clock.suspend()
+    got = far.recv(100)
+    clock.resume()
+    if got != b"HELLO NAK\r\n":
+        print("clear text from elsewhere:", got)
+print(wide.stop())

@@ -28,7 +28,7 @@ static void usage(FILE *to) {
             "  -q, --quiet           no information on standard output\n"
             "  -4, --ipv4            no IPv6\n"
             "  -b, --bind ADDRESS    where to listen: an address of this computer, or '*' for all of them\n"
-            "                        (default: only programs of this computer are let in)\n");
+            "                        (default: only programs of this computer are let in); see docs/nml.md\n");
 }
 
 int main(int argc, char **argv) {

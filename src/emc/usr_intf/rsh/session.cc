@@ -19,6 +19,7 @@
 #include <ctime>
 
 #include "kerf_clock.h"
+#include "nml_auth.hh"
 #include "rcs_print.hh"
 
 namespace rsh {
@@ -62,7 +63,16 @@ static std::string from_word(const std::string &line, int n) {
 
 // ---- session ----
 
-Session::Session(Server &server, int f) : fd(f), client("Default-" + std::to_string(f)), server_(server) {}
+Session::Session(Server &server, int f, bool neighbour) : fd(f), client("Default-" + std::to_string(f)), server_(server), neighbour_(neighbour) {}
+
+std::string Session::new_challenge() { return challenge_ = nml::to_hex(nml::random_bytes(16)); }
+
+bool Session::password_is(const std::string &given, const std::string &password) {
+    std::string challenge = std::move(challenge_);
+    challenge_.clear();
+    if (!challenge.empty() && nml::equal_secret(given, nml::to_hex(nml::hmac(password, challenge)))) return true;
+    return neighbour_ && nml::equal_secret(given, password);
+}
 
 Session::~Session() { close(fd); }
 
@@ -140,7 +150,7 @@ void Session::hello(const Words &w) {
         error("Client name too long, 80 characters at most");
         return reply("HELLO NAK");
     }
-    if (w[1] != server_.options.connect_password) return reply("HELLO NAK");
+    if (!password_is(w[1], server_.options.connect_password)) return reply("HELLO NAK");
     client = w[2];
     version = w.size() > 3 ? w[3] : "1.1";
     if (w.size() > 3 && version > server_.ini_version)
@@ -346,7 +356,11 @@ bool Server::start() {
         }
         kerf_clock_sleep_ns(1000 * MS);
     }
-    // Passwords of this protocol travel in clear: other computers must be let in on purpose.
+    // Other computers are let in on purpose only, and not with the passwords that everybody knows.
+    if (!options.bind.empty() && (options.connect_password == Options().connect_password || options.enable_password == Options().enable_password)) {
+        fprintf(stderr, "linuxcncrsh: --bind needs passwords of your own: --connectpw and --enablepw\n");
+        return false;
+    }
     bool any = options.bind == "*";
     if (options.bind.empty() || any) {
         bool six = !options.ipv4 && open_port(AF_INET6, any ? "::" : "::1");
@@ -390,13 +404,15 @@ void Server::run(const volatile int *stop) {
         }
         for (size_t l = 0; l < first; l++) {
             if (!(fds[l].revents & POLLIN)) continue;
-            int fd = accept4(listeners_[l], nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+            sockaddr_in6 from{};
+            socklen_t from_size = sizeof from;
+            int fd = accept4(listeners_[l], reinterpret_cast<sockaddr *>(&from), &from_size, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (fd >= 0 && options.sessions > 0 && static_cast<int>(sessions.size()) >= options.sessions) {
                 close(fd);
             } else if (fd >= 0) {
                 int one = 1;
                 setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
-                sessions[fd] = std::make_unique<Session>(*this, fd);
+                sessions[fd] = std::make_unique<Session>(*this, fd, nml::is_loopback(reinterpret_cast<sockaddr *>(&from)));
             }
         }
         for (auto &it : sessions) {

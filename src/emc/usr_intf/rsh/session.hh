@@ -36,7 +36,8 @@ struct Subcommand;
 
 class Session {
 public:
-    Session(Server &server, int fd);
+    // neighbour: the peer is on this computer.
+    Session(Server &server, int fd, bool neighbour);
     ~Session();
 
     int fd;
@@ -60,6 +61,10 @@ public:
     void error(const std::string &text) { reply("error: " + text); }
     void warning(const std::string &text) { reply("warning: " + text); }
     std::string output;
+    // Other computers never send a password but its answer to the challenge they asked for:
+    // HMAC-SHA256(password, challenge), both in hexadecimal digits. Good once.
+    std::string new_challenge();
+    bool password_is(const std::string &given, const std::string &password);
 
 private:
     void hello(const Words &w);
@@ -68,6 +73,8 @@ private:
     void help(const Words &w);
     void finish_wait(int status);
     Server &server_;
+    const bool neighbour_;
+    std::string challenge_;
     std::string partial_;
     std::deque<std::string> lines_;
     const Subcommand *waiting_ = nullptr;

@@ -359,6 +359,7 @@ const std::vector<Subcommand> &subcommands() {
              s.timestamp_epoch = epoch;
              return Result::done;
          }},
+        {"CHALLENGE", Level::none, false, 0, 0, "", GET { UNUSED; s.reply("CHALLENGE " + s.new_challenge()); return true; }, nullptr},
         {"CLIENTS", Level::hello, false, 0, 0, "", GET {
              UNUSED;
              for (auto &c : v.sessions)
@@ -394,7 +395,7 @@ const std::vector<Subcommand> &subcommands() {
                  s.enabled = false;
                  return Result::done;
              }
-             if (a[0] != v.options.enable_password) return Result::failed;
+             if (!s.password_is(a[0], v.options.enable_password)) return Result::failed;
              s.enabled = true;
              return Result::done;
          }},
