@@ -514,7 +514,12 @@ class Generator:
         comp = self.comp
         self.put()
         if comp.body_is_function:
-            self.put(f"FUNCTION({c_name(comp.functions[0].name)})\n{{")
+            name = c_name(comp.functions[0].name)
+            if comp.option("no_convenience_defines"):
+                self.put(f"static void {name}(struct __comp_state *__comp_inst, long period)\n{{\n"
+                         "(void)__comp_inst; (void)period;")
+            else:
+                self.put(f"FUNCTION({name})\n{{")
         self.put(f"#line {comp.code_line} {c_string(comp.filename)}")
         self.out.write(comp.code)
         if not comp.code.endswith("\n"):
