@@ -49,4 +49,7 @@ $(O)/test/hal-bench: $(HAL_BENCH_OBJECTS) $(T)/lib/liblinuxcnchal.so
 .PHONY: bench-hal
 bench-hal: $(O)/test/hal-bench
 	/usr/bin/python3 src/hal/test/hal-bench.py $(T)
-BENCHES += bench-hal
+.PHONY: bench-components
+bench-components:
+	/usr/bin/python3 src/hal/test/comp-bench.py $(T)
+BENCHES += bench-hal bench-components
