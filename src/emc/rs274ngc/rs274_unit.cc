@@ -9,12 +9,25 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <new>
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include "check_program.hh"
 #include "interp.hh"
 #include "stages.hh"
+
+// Every allocation of this program and of the libraries it uses is counted.
+static long allocations = 0;
+void *operator new(size_t size)
+{
+    ++allocations;
+    if (void *p = malloc(size ? size : 1)) return p;
+    throw std::bad_alloc();
+}
+void operator delete(void *p) noexcept { free(p); }
+void operator delete(void *p, size_t) noexcept { free(p); }
 
 namespace
 {
@@ -321,6 +334,105 @@ void checks_find_what_is_wrong_without_a_machine() // FP-104
     for (const char *name : {"check.ngc", "check.tbl", "check.ini"}) unlink(name);
 }
 
+/// A machine that keeps nothing.
+class IdleCanon : public Canon
+{
+  public:
+    void STRAIGHT_TRAVERSE(int, const EmcPose &end) override { position = end; }
+    void STRAIGHT_FEED(int, const EmcPose &end) override { position = end; }
+    void ARC_FEED(int, double, double, double, double, int, double, const EmcPose &end) override { position = end; }
+    double GET_EXTERNAL_LENGTH_UNITS() override { return 1; }
+    EmcPose GET_EXTERNAL_POSITION() override { return position; }
+    EmcPose position{};
+};
+
+// Ordinary lines, after the first of each kind, take no memory; so its size does not depend on
+// the program's length.
+void motion_lines_allocate_nothing()
+{
+    static const char *const kinds[] = {
+        "G1 X1.5 Y2.25 Z-3 F100", "N120 G0 X0Y0Z5", "X2 Y[1+2*3] (with a comment)", "G2 X4 Y7 I1 J0.0", "G3 X0 Y0 R8 ; tail",
+        "G1 X#1 A45 F[200/4]", "#1=[#1+1] #<named>=3", "G4 P.1", "G81 X1 Z-1 R2", "X2", "G80", "M8 S100", "/G1 X1", "G91 X#<named>", "G90",
+        "G41.1 D1", "G1 X20 Y20", "G1 X30", "G40", "G0 X0 Y0", "o1 if [#1 gt 5]", "G1 X3", "o1 else", "G1 X4", "o1 endif"};
+    std::string text = "G21 G17 G90 F100 S1 M3\n#<named>=1 #1=0\no9 while [#1 lt 400]\n";
+    for (const char *k : kinds) text += std::string(k) + "\n";
+    write_file("many.ngc", text + "o9 endwhile\nM2\n");
+    IdleCanon canon;
+    Interp interp(canon);
+    EXPECT(interp.init(InterpOptions()) == INTERP_OK && interp.open("many.ngc") == INTERP_OK);
+    const int warm = 2 + int(sizeof kinds / sizeof *kinds) * 20;
+    long before = 0, taken = 0;
+    size_t heap = 0;
+    for (int n = 0;; ++n) {
+        if (n == warm) {
+            before = allocations;
+            heap = mallinfo2().uordblks;
+        }
+        int status = interp.read();
+        if (status == INTERP_OK) status = interp.execute();
+        if (status == INTERP_EXIT) break;
+        if (n >= warm && allocations != before) {
+            if (taken == 0) printf("line %d allocates: %s\n", interp.line(), interp.command());
+            taken += allocations - before;
+            before = allocations;
+        }
+        if (status != INTERP_OK) {
+            printf("%s\n", interp.fault().report().c_str());
+            ++failures;
+            break;
+        }
+    }
+    EXPECT(taken == 0);
+    EXPECT(mallinfo2().uordblks <= heap + 65536);
+    unlink("many.ngc");
+}
+
+// An MDI sub without an end gives control back, and reset() ends it; the program goes on where it was.
+void endless_subs_give_control_back()
+{
+    Machine m;
+    write_file("endless.ngc", "o<endless> sub\no1 while [1]\nG0 X1\no1 endwhile\no<endless> endsub\n");
+    write_file("main.ngc", "G0 X5\nG0 X6\nM2\n");
+    EXPECT(m.interp.open("main.ngc") == INTERP_OK && m.interp.read() == INTERP_OK && m.interp.execute() == INTERP_OK);
+    m.interp.set_mdi_slice(100);
+    EXPECT(m.interp.execute("o<endless> call") == INTERP_OK && m.interp.mdi_waits() && m.interp.call_level() == 1);
+    const size_t calls = m.canon.calls.size();
+    EXPECT(m.interp.execute(nullptr) == INTERP_OK && m.interp.mdi_waits() && m.canon.calls.size() > calls + 20);
+    m.interp.reset();
+    EXPECT(!m.interp.mdi_waits() && m.interp.call_level() == 0);
+    EXPECT(m.interp.execute("G0 X9") == INTERP_OK && !m.interp.mdi_waits());
+    EXPECT(m.interp.read() == INTERP_OK && m.interp.execute() == INTERP_OK && m.canon.position.tran.x == 6);
+    unlink("endless.ngc");
+    unlink("main.ngc");
+}
+
+// One line cannot ask for moves without bound; recursion and numbers have limits with texts.
+void what_a_line_asks_for_is_bounded()
+{
+    struct {
+        const char *line, *text;
+    } bounds[] = {
+        {"G81 X1 Z-1 R1 L2000000000", "L word makes more than 1000000 moves"},
+        {"G83 X1 Z-1 R1 Q.0000001", "Q word gives more than 100000 pecks"},
+        {"G76 P1 Z-2 I-1 J.0000001 K1", "J of G76 gives more than 100000 passes"},
+        {"G76 P1 Z-2 I-1 J.1 K1 H2000000000", "H of G76 gives more than 100000 passes"},
+        {"o<deep> call", "Too many subroutine levels"},
+        {"#5602=1", "Parameter number out of range"},
+        {"#0=1", "Parameter number out of range"},
+    };
+    write_file("deep.ngc", "o<deep> sub\no<deep> call\no<deep> endsub\n");
+    for (const auto &b : bounds) {
+        IdleCanon canon;
+        Interp interp(canon);
+        EXPECT(interp.init(InterpOptions()) == INTERP_OK);
+        EXPECT(interp.execute("G21 G90 F100 M3 S10") == INTERP_OK);
+        EXPECT(interp.execute(b.line) == INTERP_ERROR);
+        if (std::string(interp.error_text(INTERP_ERROR)) != b.text)
+            printf("%s: %s\n", b.line, interp.error_text(INTERP_ERROR)), ++failures;
+    }
+    unlink("deep.ngc");
+}
+
 } // namespace
 
 int main()
@@ -341,6 +453,9 @@ int main()
         {"FP-130 a snapshot runs as it was opened", a_snapshot_runs_as_it_was_opened},
         {"FP-110 outputs keep their place", outputs_keep_their_place},
         {"a printed block reads as the same block", a_printed_block_reads_as_the_same_block},
+        {"motion lines allocate nothing", motion_lines_allocate_nothing},
+        {"endless subs give control back", endless_subs_give_control_back},
+        {"what a line asks for is bounded", what_a_line_asks_for_is_bounded},
         {"FP-104 checks find what is wrong without a machine", checks_find_what_is_wrong_without_a_machine},
     };
     for (const auto &t : tests) {

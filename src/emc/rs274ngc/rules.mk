@@ -21,3 +21,8 @@ EXTRA_TARGETS += $(O)/test/interp-fuzz
 $(O)/test/interp-fuzz: $(call objs,ul,src/emc/rs274ngc/rs274_fuzz.cc) $(T)/lib/librs274.so
 	$(call say,LINK,$@)
 	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $< -L$(T)/lib -lrs274 -ltooldata -llinuxcncini -Wl,-rpath,'$$ORIGIN/../../lib'
+# Measurements, part of `make bench`.
+.PHONY: bench-rs274
+bench-rs274: all
+	PATH=$(abspath $(T)/bin):$$PATH PYTHONPATH=$(abspath $(T)/lib/python) /usr/bin/python3 src/emc/rs274ngc/rs274-bench.py
+BENCHES += bench-rs274
