@@ -611,7 +611,7 @@ void MotionLink::update(std::string *error) {
     t.feed_override_enabled = enables & FS_ENABLED;
     t.adaptive_feed_enabled = enables & AF_ENABLED;
     t.feed_hold_enabled = enables & FH_ENABLED;
-    if (settling_ && s.heartbeat != settle_from_) settling_ = false;
+    if (settling_ && s.heartbeat - settle_from_ >= 2) settling_ = false; // the second one has seen all that the command changed
     t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT ? RCS_ERROR : t.inpos && t.queue == 0 && !settling_ ? RCS_DONE : RCS_EXEC;
     if (config_changed) {
         t.maxVelocity = config_.limitVel;

@@ -18,12 +18,24 @@ bool EmcClient::send(RCS_CMD_MSG &m) {
     return true;
 }
 
-// What the status says of the last command. An unchanged status says what it said before.
-EmcClient::Answer EmcClient::look() {
+// The channel gives each status once and keeps it: whoever asks next finds it there.
+void EmcClient::look_at_status() {
     if (status_->peek() == EMC_STAT_TYPE) {
         last_ = *status_->get<RCS_STAT_MSG>();
         seen_ = true;
     }
+}
+
+bool EmcClient::refresh(EMC_STAT *out) {
+    look_at_status();
+    bool good = seen_ && (status_->status == CMS_READ_OK || status_->status == CMS_READ_OLD);
+    if (good) *out = *status_->get<EMC_STAT>();
+    return good;
+}
+
+// What the status says of the last command. An unchanged status says what it said before.
+EmcClient::Answer EmcClient::look() {
+    look_at_status();
     if (!seen_) return Answer::none;
     int diff = last_.echo_serial_number - serial_;
     if (diff > 0) return Answer::done;

@@ -24,12 +24,16 @@ public:
     // RCS_DONE or RCS_ERROR; -1 after timeout_s. One look at least.
     int wait_done(double timeout_s, double poll_s = 0.01);
 
+    // The newest status into *out; false, and *out as it was, while there is none.
+    bool refresh(EMC_STAT *out);
+
     NML &status_channel() { return *status_; }
     NML &command_channel() { return *command_; }
     bool remote() const { return command_->remote(); } // the controller runs on another machine
 private:
     enum class Answer { none, received, done, error };
     Answer look();
+    void look_at_status();
     std::unique_ptr<NML> command_, status_;
     int serial_ = 0;
     bool seen_ = false;

@@ -24,7 +24,7 @@ struct Tester {
     EMC_STAT stat;
 
     void look() {
-        if (client.status_channel().peek() == EMC_STAT_TYPE) stat = *client.status_channel().get<EMC_STAT>();
+        client.refresh(&stat);
     }
     template <class F> bool until(F f, double seconds = 5) {
         int64_t end = kerf_clock_now_ns() + static_cast<int64_t>(seconds * 1e9);

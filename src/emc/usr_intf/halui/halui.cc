@@ -226,7 +226,7 @@ private:
     void mdi();
     void release();
     bool refresh() {
-        if (client_->status_channel().peek() == EMC_STAT_TYPE) stat_ = *client_->status_channel().get<EMC_STAT>();
+        client_->refresh(&stat_);
         return client_->status_channel().valid();
     }
     template <class M> void give(M &m) {

@@ -288,9 +288,7 @@ void Server::info(const std::string &text) const {
     }
 }
 
-void Server::refresh() {
-    if (client->status_channel().peek() == EMC_STAT_TYPE) stat = *client->status_channel().get<EMC_STAT>();
-}
+void Server::refresh() { client->refresh(&stat); }
 
 void Server::sleep_heartbeats(double n) { kerf_clock_sleep_ns(static_cast<int64_t>(n * servo_period_s_ * 1e9)); }
 

@@ -6,6 +6,8 @@
 // A command that sets waits until task has read it (emc_set_wait done: until it is done);
 // one that asks refreshes the status first (emc_update none: it does not).
 #include <tcl.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -38,9 +40,7 @@ struct Link {
     std::deque<std::string> error, text, display;
     int start_line = 0;
 
-    void refresh() {
-        if (client->status_channel().peek() == EMC_STAT_TYPE) stat = *client->status_channel().get<EMC_STAT>();
-    }
+    void refresh() { client->refresh(&stat); }
     void read_messages() {
         for (;;) {
             switch (errors->read()) {
@@ -397,6 +397,7 @@ const std::vector<Command> &commands() {
              std::string line;
              for (int i = 1; i < c.argc; i++) line += (i > 1 ? " " : "") + c.arg(i);
              EMC_TASK_PLAN_EXECUTE m;
+             if (line.size() >= sizeof m.command) return c.fail("MDI commands limited to 254 characters");
              copy_text(m.command, line.c_str());
              return c.give(m);
          }},
@@ -550,7 +551,11 @@ int emc_init(ClientData data, Tcl_Interp *interp, int argc, Tcl_Obj *const argv[
     linuxcnc::IniFile ini;
     std::string nml;
     if (ini.open(link.ini_file)) nml = ini.findStringV("NML_FILE", "EMC", "");
-    Tcl_SetVar(interp, "EMC_INIFILE", link.ini_file.c_str(), TCL_GLOBAL_ONLY);
+    Tcl_Obj *load[] = {Tcl_NewStringObj("emc_ini_load", -1), Tcl_NewStringObj(link.ini_file.c_str(), -1)}; // emc_ini reads it too; sets EMC_INIFILE
+    for (Tcl_Obj *o : load) Tcl_IncrRefCount(o);
+    Tcl_EvalObjv(interp, 2, load, TCL_EVAL_GLOBAL);
+    for (Tcl_Obj *o : load) Tcl_DecrRefCount(o);
+    Tcl_ResetResult(interp);
     verbose_nml_error_messages = 0;
     std::unique_ptr<EmcClient> client;
     std::unique_ptr<NML> errors;
@@ -591,6 +596,42 @@ int nearest(ClientData, Tcl_Interp *interp, int argc, Tcl_Obj *const argv[]) {
     return TCL_OK;
 }
 
+// emc_pendant PORT: one packet of a mouse: left and right button, way in x and y, status byte.
+int pendant(ClientData, Tcl_Interp *interp, int argc, Tcl_Obj *const argv[]) {
+    std::string port = argc == 2 ? Tcl_GetString(argv[1]) : "";
+    bool serial = port == "/dev/ttyS0" || port == "/dev/ttyS1";
+    if (!serial && port != "/dev/psaux") {
+        Tcl_SetObjResult(interp, Tcl_NewStringObj("Need /dev/psaux, /dev/ttyS0 or /dev/ttyS1 as Arg", -1));
+        return TCL_ERROR;
+    }
+    int fd = open(port.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC), status = 0, x = 0, y = 0, left = 0, right = 0;
+    unsigned char packet[3];
+    size_t n = 0;
+    while (fd >= 0 && n < sizeof packet) {
+        pollfd f{fd, POLLIN, 0};
+        unsigned char b;
+        if (poll(&f, 1, 100) <= 0 || read(fd, &b, 1) != 1) break;
+        if (serial && (b & 0x40)) n = 0; // the first byte of a Microsoft mouse's packet
+        packet[n++] = b;
+    }
+    if (fd >= 0) close(fd);
+    if (n == sizeof packet) {
+        status = packet[0];
+        left = status >> (serial ? 5 : 0) & 1;
+        right = status >> (serial ? 4 : 1) & 1;
+        x = static_cast<signed char>(serial ? (status & 3) << 6 | (packet[1] & 63) : packet[1]);
+        y = static_cast<signed char>(serial ? (status & 12) << 4 | (packet[2] & 63) : packet[2]);
+    }
+    Tcl_SetObjResult(interp, Tcl_ObjPrintf("%d %d %d %d %d", left, right, x, y, status));
+    return TCL_OK;
+}
+
+// multihead: {x y width height} of the screen Tk draws on; nothing without Tk.
+int multihead(ClientData, Tcl_Interp *interp, int, Tcl_Obj *const[]) {
+    if (!Tcl_PkgPresent(interp, "Tk", nullptr, 0)) { Tcl_ResetResult(interp); return TCL_OK; }
+    return Tcl_Eval(interp, "list [list [winfo vrootx .] [winfo vrooty .] [winfo screenwidth .] [winfo screenheight .]]");
+}
+
 void destroy(ClientData data, Tcl_Interp *) { delete static_cast<Link *>(data); }
 
 } // namespace
@@ -599,6 +640,8 @@ int emc_tcl_init(Tcl_Interp *interp) {
     Link *link = new Link;
     for (const Command &c : commands()) Tcl_CreateObjCommand(interp, c.name, run_command, link, nullptr);
     Tcl_CreateObjCommand(interp, "emc_init", emc_init, link, nullptr);
+    Tcl_CreateObjCommand(interp, "emc_pendant", pendant, nullptr, nullptr);
+    Tcl_CreateObjCommand(interp, "multihead", multihead, nullptr, nullptr);
     Tcl_CreateObjCommand(interp, "int", truncate, nullptr, nullptr);
     Tcl_CreateObjCommand(interp, "round", nearest, nullptr, nullptr);
     Tcl_CallWhenDeleted(interp, destroy, link);
