@@ -52,7 +52,8 @@ def main() -> int:
                     got = float(halcmd("getp", f"bed.{pin}"))
                     if abs(got - want) > 1e-5 * max(1, abs(want)):
                         mistakes.append(f"{case}: {pin} is {got}, expected {want}")
-            halcmd("unloadusr", "bed")
+            halcmd("unloadusr", "thermistor")
+            halcmd("waitusr", "-i", "thermistor")
         finally:
             session.command(folder, "realtime", "stop")
     print("\n".join(mistakes) or "all measured")
