@@ -191,6 +191,7 @@ int arc_entry(Setup &s, int g, const ArcPlane &plane, const EmcPose &end)
     if (s.feed_mode == INVERSE_TIME)
         inverse_time_rate(s, comp_arc_length(from, n, arc, axis(end, plane.normal) - axis(s.current, plane.normal)));
     flush_comp(s);
+    s.queue->start_known = false; // the arc's own sweep is not the programmed one's
     enqueue_arc(s, with_point(end, plane, e), centre, arc.turn, arc_sweep(from, n, arc.centre, arc.turn));
     s.comp_first_move = false;
     arrive(s, plane, end, e);
