@@ -1,2 +1,3 @@
 #!/bin/bash
-exec ../../../objects/test/interp-unit
+# Through the public interface, then stage by stage.
+../../../objects/test/interp-unit && exec ../../../objects/test/interp-stages
