@@ -63,16 +63,14 @@ int machine_end(Setup &s, const Block &b, EmcPose *end)
     }
     for (int i = AX_Z; i < AXES; ++i) {
         if (!b.has_axis(i)) continue;
-        double offset = axis(s.g5x, i) + axis(s.g92, i);
-        bool rotary = i >= AX_A && i <= AX_C;
-        if (rotary && s.wrapped[i - AX_A]) {
-            offset += axis(s.tool_offset, i);
-            double absolute;
-            TRY(wrapped_target(s, i, b.axis_word(i), axis(s.current, i) + offset, &absolute));
-            axis(*end, i) = absolute - offset;
-        } else {
-            axis(*end, i) = rotary ? b.axis_word(i) - offset : axis(there, i);
+        if (i < AX_A || i > AX_C || !s.wrapped[i - AX_A]) {
+            axis(*end, i) = axis(there, i);
+            continue;
         }
+        const double offset = axis(s.g5x, i) + axis(s.g92, i) + axis(s.tool_offset, i);
+        double absolute;
+        TRY(wrapped_target(s, i, b.axis_word(i), axis(s.current, i) + offset, &absolute));
+        axis(*end, i) = absolute - offset;
     }
     return INTERP_OK;
 }
