@@ -9,7 +9,7 @@
 #include <math.h>
 #include "motion_priv.h"
 
-#define LIMIT_EPSILON 1e-12   /* units: rounding of sums */
+#define LIMIT_EPSILON 1e-9    /* units: below any encoder; interpolated positions round by more than 1e-12 */
 #define ALIGN_EPSILON 1e-9    /* units: below any encoder; larger steps are moved, not jumped */
 
 /* ---- joint planners ---- */
