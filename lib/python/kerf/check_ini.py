@@ -211,10 +211,23 @@ class Checker:
                     self.error(f"[{section}]MIN_LIMIT > [{axis}]MIN_LIMIT ({joint_low:g} > {low:g})")
                 if joint_high < high:
                     self.error(f"[{section}]MAX_LIMIT < [{axis}]MAX_LIMIT ({joint_high:g} < {high:g})")
+        self.groups(letters)
         wanted = "".join((self.ini.get("TRAJ", "COORDINATES") or "").split()).upper()
         if given and given != AXIS_LETTERS and given != wanted:
             self.warning(f"Inconsistent coordinates specifications: trivkins coordinates={given} vs. "
                          f"[TRAJ]COORDINATES={wanted}")
+
+    def groups(self, letters):
+        """Joints that drive one axis together have to home together, or they rack it."""
+        for joint in range(self.joints):
+            if re.match(r"-0+$", (self.ini.get(f"JOINT_{joint}", "HOME_SEQUENCE") or "").strip()):
+                self.error(f"[JOINT_{joint}]HOME_SEQUENCE=-0 makes no group: number groups from -1")
+        for letter in dict.fromkeys(letters):
+            joints = [j for j, owner in enumerate(letters[:self.joints]) if owner == letter]
+            numbers = {integer(self.ini.get(f"JOINT_{j}", "HOME_SEQUENCE", "999")) for j in joints}
+            if len(joints) > 1 and (len({abs(n or 0) for n in numbers}) > 1 or min(n or 0 for n in numbers) >= 0):
+                self.warning(f"Joints {', '.join(map(str, joints))} drive {letter} together but can be homed and jogged "
+                             "apart: give them the same negative HOME_SEQUENCE")
 
     def run(self):
         if not self.mandatory():
