@@ -13,3 +13,10 @@ endef
 $(eval $(call tp_test,property))
 $(eval $(call tp_test,api))
 $(eval $(call tp_test,optimum))
+
+# Template of a user's planner, built as a user builds it.
+TP_GEN := $(O)/gen/emc/tp
+$(TP_GEN)/tpcomp.c: src/emc/tp/tpcomp.comp $(wildcard src/hal/utils/halcompile/*.py)
+	$(call say,HALCOMPILE,$<)
+	$(Q)mkdir -p $(@D) && $(HALCOMPILE) --preprocess --output-dir=$(@D) $<
+$(eval $(call rtmodule,tpcomp,$(TP_GEN)/tpcomp.c))
