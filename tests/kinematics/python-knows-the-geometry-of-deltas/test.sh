@@ -1,0 +1,2 @@
+#!/bin/bash
+PYTHONDONTWRITEBYTECODE=1 exec /usr/bin/python3 test.py
