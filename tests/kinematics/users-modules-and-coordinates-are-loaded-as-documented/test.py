@@ -88,6 +88,30 @@ check(not m.violations(), str(m.violations()))
 check(not m.errors(), "errors at the end")
 m.close()
 
+# modules with a switch of their own
+for name, joints, axes, types, prefix, dummy in (
+        ("xyzab_tdr_kins", 5, "xyzab", 2, "xyzab_tdr_kins", "xyzab-tdr-kins.0.dummy"),
+        ("xyzacb_trsrn", 6, "xyzacb", 3, "xyzacb_trsrn_kins", "xyzacb-trsrn.0.dummy"),
+        ("xyzbca_trsrn", 6, "xyzbca", 3, "xyzbca_trsrn_kins", "xyzbca-trsrn.0.dummy"),
+        ("millturn", 4, "xyza", 2, "millturn", "millturn.0.fpin")):
+    m = Machine(joints=joints, axes=axes, kins=name, low=-500, high=500)
+    if name != "millturn":
+        m.set(f"{prefix}.tool-offset-z", 12.5)
+        m.set(f"{prefix}.x-offset", 3.5)
+    check(m.get(dummy) == 0, f"{name}: {dummy}")
+    m.mode(km.COORD)
+    m.line(*[5.0] * joints)  # letters of these are the first of xyzabc
+    m.rest()
+    for value in [*range(types), 7, 0]:
+        switch(m, value)
+        on = value if value < types else types - 1
+        check([m.get(f"kinstype.is-{n}") for n in range(types)] == [n == on for n in range(types)], f"{name} type {value}")
+        check((value < types) != any("BAD VALUE <7>" in e for e in m.errors()), f"{name} type {value}: message")
+        m.send(km.ABORT)
+        m.mode(km.TELEOP)
+        m.mode(km.COORD)
+    m.close()
+
 m = Machine(joints=3, kins="userkins")
 m.set("userkins.in", 7)
 m.sleep(0.01)
