@@ -775,6 +775,10 @@ static void jog_joint(M *m, C *c, enum jog_kind kind)
     double target, step = c->vel > 0.0 ? c->offset : -c->offset;
     if (jt->wheel_jjog_active)
         return;
+    if (is_extra(m, c->joint) && get_homed(c->joint)) {
+        report_error("Cannot jog extra joint %d: it follows joint.%d.posthome-cmd", c->joint, c->joint);
+        return;
+    }
     if (kind != JOG_ABS && get_home_needs_unlock_first(c->joint)) {
         report_error("Can't jog locking joint_num=%d", c->joint);
         set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 1);
