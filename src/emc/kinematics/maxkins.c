@@ -81,7 +81,7 @@ int rtapi_app_main(void)
     pins = hal_malloc(sizeof(*pins));
     if (!pins ||
         hal_pin_new_real(comp_id, HAL_IO, &pins->pivot_length, 0.666, "maxkins.pivot-length") < 0 ||
-        hal_pin_new_bool(comp_id, HAL_IO, &pins->conventional_directions, 0, "maxkins.conventional-directions") < 0) {
+        hal_pin_new_bool(comp_id, HAL_IN, &pins->conventional_directions, 0, "maxkins.conventional-directions") < 0) {
         hal_exit(comp_id);
         return -1;
     }
