@@ -252,9 +252,12 @@ bool HOMING(do_homing)(void)
     bool before = HOMING(get_allhomed)();
     homing_release_groups();
     for (int j = 0; j < homes.joints; j++)
-        if (is_active_joint(j) && homes.joint[j].state != HOME_IDLE) {
+        if (homes.joint[j].state != HOME_IDLE) {
             int was = homes.active;
-            homing_run_joint(j);
+            if (is_active_joint(j))
+                homing_run_joint(j);
+            else
+                homing_abort_all(); /* deactivated under way: nobody would wait for it in vain */
             if (was && !homes.active)
                 break; /* aborted: every joint has been reset */
         }

@@ -179,6 +179,25 @@ at = m.at(0)
 seen, ok = m.run_home(0, 5)
 r.check(ok and m.at(0) == at and seen[0] == ["IDLE"], f"absolute encoder homed again {seen[0]}")
 
+# a joint that is deactivated while it homes ends homing instead of hanging it
+m.unhome()
+for j in range(N):
+    m.set_home(j, home_sequence=j, search_vel=20.0, latch_vel=2.0)
+m.place(0, 0.0)
+m.ask_home()
+m.until(lambda: m.state(0) == "SEARCH_WAIT", "searching")
+m.send(km.JOINT_DEACTIVATE, joint=0)
+m.sleep(0.3)
+r.check(not m.homing() and m.get("joint.1.vel-cmd") == 0, "a deactivated joint hangs homing")
+m.send(km.JOINT_ACTIVATE, joint=0)
+for j in range(N):
+    m.set_home(j, home_sequence=0)
+m.enable()
+m.sleep(0.1)
+m.errors()
+m.run_home()
+r.check(m.homed(), f"not homed after an activation {m.errors()}")
+
 # FP-057: moved by hand while off: no jump and no error at the next machine-on, in each mode
 for mode in (km.FREE, km.TELEOP, km.COORD):
     m.mode(mode)
