@@ -70,6 +70,8 @@ static int joint_wheel_allowed(struct motion *m, int j, double distance)
 {
     const emcmot_joint_t *jt = &m->joint[j];
     int overridden = m->status->overrideLimitMask >> (2 * j);
+    if (is_extra(m, j) && get_homed(j))
+        return 0; /* follows its posthome-cmd */
     if (get_home_needs_unlock_first(j)) {
         report_error("Can't wheel jog locking joint_num=%d", j);
         return 0;
