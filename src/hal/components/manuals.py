@@ -39,13 +39,14 @@ GROUPS = {
     "Control": "pid bldc thc thcud plasmac ohmic laserpower raster",
     "Pulses and encoders": "stepgen pwmgen siggen encoder counter encoder_ratio",
     "Spindles and tools": "spindle gearchange spindle_monitor orient carousel boss_plc",
-    "Joints and axes": "gantry anglejog eoffset_per_angle moveoff",
-    "Simulation and tests": """sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_joint sim_parport sphereprobe
+    "Joints and axes": "gantry anglejog eoffset_per_angle moveoff z_level_compensation",
+    "Simulation and tests": """sim-torch sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_joint sim_parport sphereprobe
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
     "Sensors": "max31855 thermistor",
 }
+TITLE = re.compile(r"^= \S+\((\d)\)$", re.M)
 SUMMARY = re.compile(r"^== NAME\s+(\S+) - (.*)$", re.M)
 
 
@@ -60,7 +61,8 @@ def load(path: Path) -> Component:
 def write_pages(folder: Path, files: list[Path]) -> None:
     for path in files:
         if path.suffix == ".adoc":
-            page, section = man.render_page(path.read_text(), path.name), 9
+            text = path.read_text()
+            page, section = man.render_page(text, path.name), TITLE.search(text).group(1)
         else:
             component = load(path)
             page, section = man.render(component), adoc.section_number(component)

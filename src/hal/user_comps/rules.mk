@@ -1,0 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Components that are programs in Python.
+$(eval $(call script,sim-torch,src/hal/user_comps/sim_torch.py))
+$(eval $(call script,z_level_compensation,src/hal/user_comps/z_level_compensation.py))
