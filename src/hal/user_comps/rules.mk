@@ -2,3 +2,4 @@
 # Components that are programs in Python.
 $(eval $(call script,sim-torch,src/hal/user_comps/sim_torch.py))
 $(eval $(call script,z_level_compensation,src/hal/user_comps/z_level_compensation.py))
+$(eval $(call script,mqtt-publisher,src/hal/user_comps/mqtt_publisher.py))
