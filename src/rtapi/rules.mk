@@ -17,6 +17,12 @@ $(KERF_PATHS_OBJECTS): EXTRA += -DKERF_MODULE_DIR='"$(KERF_MODULE_DIR)"'
 RTAPI_HOST_SOURCES := $(addprefix src/rtapi/,kerf_instance.c kerf_paths.c kerf_clock.c kerf_vclock.c rtapi_common.c \
     rtapi_shmem.c $(addprefix host/,host_main.c host_module.c host_task.c host_posix.c host_virtual.c host_rt.c \
     host_msg.c host_device.c))
+# The EVL core of Xenomai 4, where configure found its headers.
+ifeq ($(HAVE_EVL),yes)
+RTAPI_HOST_SOURCES += src/rtapi/host/host_evl.c
+RTAPI_HOST_LIBS := -levl
+$(call objs,host,$(RTAPI_HOST_SOURCES)): EXTRA += -DKERF_EVL
+endif
 RTAPI_HOST_OBJECTS := $(call objs,host,$(RTAPI_HOST_SOURCES))
 DEPS += $(RTAPI_HOST_OBJECTS:.o=.d)
 $(O)/host/%.o: %.c | headers
@@ -26,7 +32,7 @@ PROGRAMS += $(T)/bin/rtapi_app
 $(T)/bin/rtapi_app: $(RTAPI_HOST_OBJECTS) src/rtapi/host/host.exports
 	$(call say,LINK,$@)
 	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -Wl,--dynamic-list=src/rtapi/host/host.exports -o $@ \
-	    $(RTAPI_HOST_OBJECTS) -ldl -lpthread -lm
+	    $(RTAPI_HOST_OBJECTS) $(RTAPI_HOST_LIBS) -ldl -lpthread -lm
 
 # Rights for realtime: capabilities (preferred) or a setuid program. Run by root after the build.
 .PHONY: setcap setuid

@@ -7,6 +7,7 @@
  *   host_task.c     tasks, periods, lateness; calls a back end
  *   host_posix.c    back end: POSIX threads on CLOCK_MONOTONIC
  *   host_virtual.c  back end: the instance's virtual clock
+ *   host_evl.c      back end: EVL core of Xenomai 4 (where its headers are)
  *   host_rt.c       what this machine allows; privileges, memory, signals
  *   host_msg.c      messages of tasks, printed by a thread of their own
  *   host_device.c   ports, PCI, firmware, files and programs as root
@@ -43,7 +44,7 @@ struct task {
     struct rtapi_lateness late;
     /* Back end's own. */
     pthread_t thread;
-    int slot;
+    _Atomic int slot;
 };
 enum task_state { TASK_FREE, TASK_STOPPED, TASK_RUNNING };
 
@@ -72,6 +73,10 @@ struct rtapi_backend_ops {
     void (*stop)(struct task *task);
 };
 extern const struct rtapi_backend_ops backend_posix_rt, backend_posix, backend_virtual;
+#ifdef KERF_EVL
+extern const struct rtapi_backend_ops backend_evl;
+bool host_evl_usable(void);
+#endif
 
 /* Chooses the back end; to be called once. Its name is printed by the caller. */
 const struct rtapi_backend_ops *host_backend_choose(void);

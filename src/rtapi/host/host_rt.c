@@ -161,6 +161,11 @@ static rtapi_realtime_type_t find_type(void)
             return REALTIME_TYPE_NONE;
         }
     }
+#ifdef KERF_EVL
+    if (host_evl_usable()) {
+        return REALTIME_TYPE_XENOMAI_EVL;
+    }
+#endif
     if (uname(&kernel) == 0) {
         if (strcasestr(kernel.version, "PREEMPT RT") || strcasestr(kernel.version, "PREEMPT_RT")) {
             return REALTIME_TYPE_PREEMPT_RT;

@@ -25,6 +25,10 @@ const struct rtapi_backend_ops *host_backend_choose(void)
 {
     if (kerf_clock_is_virtual()) {
         backend = &backend_virtual;
+#ifdef KERF_EVL
+    } else if (host_realtime_type() == REALTIME_TYPE_XENOMAI_EVL) {
+        backend = &backend_evl;
+#endif
     } else if (host_realtime_type() > REALTIME_TYPE_NONE) {
         backend = &backend_posix_rt;
     } else {
