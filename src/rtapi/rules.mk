@@ -37,7 +37,7 @@ $(T)/bin/rtapi_app: $(RTAPI_HOST_OBJECTS) src/rtapi/host/host.exports
 # Rights for realtime: capabilities (preferred) or a setuid program. Run by root after the build.
 .PHONY: setcap setuid
 setcap: $(T)/bin/rtapi_app
-	chmod u-s $<
+	chmod 755 $<
 	setcap cap_ipc_lock,cap_net_admin,cap_sys_rawio,cap_sys_nice+ep $<
 setuid: $(T)/bin/rtapi_app
 	chown root $<
