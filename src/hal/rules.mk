@@ -53,3 +53,15 @@ bench-hal: $(O)/test/hal-bench
 bench-components:
 	/usr/bin/python3 src/hal/test/comp-bench.py $(T)
 BENCHES += bench-hal bench-components
+
+# The library under ThreadSanitizer (not in `make sanitize`, which is AddressSanitizer).
+HAL_TSAN := src/hal/test/hal_tsan.c $(HAL_SOURCES) src/hal/hal_query.c $(RTAPI_ULAPI_SOURCES)
+HAL_TSAN_OBJECTS := $(call objs,tsan,$(HAL_TSAN))
+$(O)/tsan/%.o: %.c | headers
+	$(call say,CC,$< (tsan))
+	$(Q)mkdir -p $(@D) && $(CC) -std=gnu11 $(CFLAGS) -O1 -fsanitize=thread -Wno-tsan $(WARN) $(DEFINES) $(INCLUDES) -MMD -MP $(ULFLAGS) $(EXTRA) -c -o $@ $<
+$(O)/test/hal-tsan: $(HAL_TSAN_OBJECTS)
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CC) -fsanitize=thread $(LDFLAGS) -o $@ $^ -lpthread
+DEPS += $(HAL_TSAN_OBJECTS:.o=.d)
+EXTRA_TARGETS += $(O)/test/hal-tsan

@@ -9,7 +9,7 @@ PUBLIC_HEADERS += $(addprefix src/rtapi/,rtapi.h rtapi_app.h rtapi_atomic.h rtap
 
 # Installed modules: below the prefix wherever that is, or at an absolute place.
 KERF_MODULE_DIR := $(if $(filter $(prefix)/%,$(moduledir)),$(patsubst $(prefix)%,%,$(moduledir)),=$(moduledir))
-KERF_PATHS_OBJECTS := $(foreach f,ul host,$(call objs,$(f),src/rtapi/kerf_paths.c))
+KERF_PATHS_OBJECTS := $(foreach f,ul host tsan,$(call objs,$(f),src/rtapi/kerf_paths.c))
 $(KERF_PATHS_OBJECTS): EXTRA += -DKERF_MODULE_DIR='"$(KERF_MODULE_DIR)"'
 
 # The realtime host. Its parts are compiled with RTAPI defined (objects/host). What it offers to
