@@ -130,7 +130,9 @@ headers: $(PUBLIC) src/config.h
 all: headers $(LIBRARIES) $(PROGRAMS) $(SCRIPTS) $(RTMODULES) $(PYMODULES) $(EXTRA_TARGETS)
 
 Makefile.inc src/config.h &: configure.ac Makefile.inc.in
-	autoreconf -fi && ./configure $(CONFIGURE_FLAGS) && touch Makefile.inc src/config.h
+	autoreconf -fi
+	if [ -x config.status ]; then ./config.status --recheck && ./config.status; else ./configure $(CONFIGURE_FLAGS); fi
+	touch Makefile.inc src/config.h
 
 -include $(DEPS)
 

@@ -57,7 +57,7 @@ static void request(const unsigned char *data, unsigned long size)
         for (int i = 0; i < argc; i++) {
             letters += strlen(argv[i]);
         }
-        if (argv[argc] || letters > size) {
+        if ((argc > 0 && argv[argc]) || letters > size) {
             abort();
         }
     }
