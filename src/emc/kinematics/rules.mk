@@ -6,7 +6,7 @@ SWITCHKINS := $(KINS)/switchkins.c $(KINS)/switchkins_util.c $(KINS)/userkfuncs.
 
 $(eval $(call rtmodule,trivkins,$(KINS)/trivkins.c $(KINS_UTIL)))
 KINS_PLAIN := corexykins rotatekins maxkins rosekins tripodkins scorbot-kins lineardeltakins rotarydeltakins \
-    xyzab_tdr_kins xyzacb_trsrn xyzbca_trsrn millturn userkins matrixkins
+    xyzab_tdr_kins xyzacb_trsrn xyzbca_trsrn millturn matrixkins
 $(foreach k,$(KINS_PLAIN),$(eval $(call rtmodule,$(k),$(KINS)/$(k).c $(KINS_UTIL))))
 $(eval $(call rtmodule,pentakins,$(KINS)/pentakins.c $(KINS)/kins_solve.cc $(KINS_UTIL),$(EIGEN_CFLAGS)))
 
@@ -20,3 +20,10 @@ $(eval $(call rtmodule,kinscheck,$(KINS)/kinscheck.c src/emc/posemath/emcpose.c)
 
 # The same geometry for Python: lineardeltakins, rotarydeltakins.
 $(foreach k,lineardeltakins rotarydeltakins,$(eval $(call pymodule,$(k),$(KINS)/python/$(k).cc)))
+
+# Template of a user's module, built as a user builds it.
+KINS_GEN := $(O)/gen/emc/kinematics
+$(KINS_GEN)/userkins.c: $(KINS)/userkins.comp $(wildcard src/hal/utils/halcompile/*.py)
+	$(call say,HALCOMPILE,$<)
+	$(Q)mkdir -p $(@D) && $(HALCOMPILE) --preprocess --output-dir=$(@D) $<
+$(eval $(call rtmodule,userkins,$(KINS_GEN)/userkins.c))
