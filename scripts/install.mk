@@ -11,6 +11,9 @@ USER_SCRIPTS := linuxcnc axis linuxcnc_check_ini linuxcnc_var linuxcnc_info linu
                 halrun halcmd_twopass haltcl halreport hal-histogram latency-test latency-histogram latency-plot update_ini
 copy_tree = mkdir -p $(DESTDIR)$(2) && cp -rP $(1)/. $(DESTDIR)$(2)/ && find $(DESTDIR)$(2) -name __pycache__ -prune -exec rm -rf {} +
 
+# Modules that users copy and change.
+TEMPLATES := src/emc/motion/homecomp.comp src/emc/tp/tpcomp.comp src/emc/kinematics/userkins.comp
+
 install: all $(INSTALL_HOOKS)
 	mkdir -p $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/linuxcnc $(DESTDIR)$(moduledir) $(DESTDIR)$(PY_SITE) \
 	    $(DESTDIR)$(prefix)/include/linuxcnc $(DESTDIR)$(SHARE) $(DESTDIR)$(DOC)/examples $(DESTDIR)$(sysconfdir)/linuxcnc $(DESTDIR)$(tcldir)
@@ -30,4 +33,6 @@ install: all $(INSTALL_HOOKS)
 	$(call copy_tree,configs,$(DOC)/examples/sample-configs)
 	$(call copy_tree,tcl,$(tcldir))
 	[ ! -f src/Makefile.modinc ] || $(INST) src/Makefile.modinc $(DESTDIR)$(SHARE)
+	mkdir -p $(DESTDIR)$(DOC)/examples/templates
+	$(INST) $(TEMPLATES) $(DESTDIR)$(DOC)/examples/templates
 	ln -sfn ../../../linuxcnc/ncfiles $(DESTDIR)$(DOC)/examples/nc_files

@@ -24,6 +24,12 @@ run() {
 run halcompile --print-modinc | sed "s|$root||"
 run halcompile --install kerf_test_there.comp kerf_test_run.comp >&2
 ls "$root/usr/lib/linuxcnc/modules/kerf_test_there.so" | sed "s|$root||"
+for t in homecomp tpcomp userkins; do # templates of modules for motion; homecomp on the default homing
+    sed "s/^component $t/component kerf_test_$t/; s,^// #define CUSTOM,#define CUSTOM," \
+        "$root/usr/share/doc/linuxcnc/examples/templates/$t.comp" > kerf_test_$t.comp
+done
+run halcompile --install kerf_test_homecomp.comp kerf_test_tpcomp.comp kerf_test_userkins.comp >&2
+ls "$root/usr/lib/linuxcnc/modules/" | grep 'kerf_test_.*\(comp\|kins\)'
 run kerf_test_run
 mkdir -p "$root/usr/share/man/man9"
 run halcompile --install-doc kerf_test_there.comp
