@@ -101,6 +101,19 @@ for program, want, line in (("M402", "my error", "O <m402> call "), ("M405", "py
 check("ZeroDivisionError" in run(";py,1/0\nM2\n").err and "ValueError: boom" in run("M405\nM2\n").err, "tracebacks are shown")
 r = run("M2\n", INI.replace("python=m400", "python=nothere"))
 check(r.status == 1 and "'nothere' is not a Python callable function" in r.err, r.err)
+# Types and fields that handlers of others use.
+r = rs274("M3 S5\nM400\nM2\n", ini=INI.replace("argspec=Pq python=m400", "python=m409"), files={**FILES, "python/remap.py": FILES["python/remap.py"] + """
+import interpreter
+def m409(self, **words):
+    b = self.blocks[self.remap_level]
+    print(DISTANCE_MODE.MODE_INCREMENTAL + 0, CUTTER_COMP_DIRECTION(2).name, FEED_MODE.INVERSE_TIME == INVERSE_TIME, b.call_type, b.offset >= 0, b.breadcrumbs > 0,
+          self.spindle_turning[0], self.spindle_mode[0], self.speed_override[0], len(self.speed), interpreter.RemapMap is dict)
+    try:
+        self.spindle_turning[0] = 3
+    except TypeError as e:
+        print(e)
+"""})
+check(r.printed[1:3] == ["1 LEFT True 4 True True 2 0 1 8 True", "this array cannot be written"], (r.printed, r.err))
 
 # FP-114: user code may be plain functions or generators, and its mistakes name file and line.
 def with_handler(body):

@@ -116,6 +116,9 @@ void bind_block(py::module_ &m)
     c.def_property_readonly("n_number", [](const BlockRef &b) { return b.get().line_number; });
     c.def_property_readonly("phase", [](const BlockRef &b) { return b.get().phase; });
     c.def_property_readonly("builtin_used", [](const BlockRef &b) { return b.get().builtin_used; });
+    c.def_property_readonly("offset", [](const BlockRef &b) { return b.owner.get().line_offset; });
+    c.def_property_readonly("call_type", [](const BlockRef &b) { return int(b.owner.get().frame().type); });
+    c.def_property_readonly("breadcrumbs", [](const BlockRef &b) { return (1 << b.get().phase) - 1; });
     c.def_property_readonly("executing_remap", [](const BlockRef &b) -> py::object {
         const Remap *r = b.get().executing;
         return r ? py::cast(RemapRef{r}) : py::object(py::none());
@@ -483,6 +486,19 @@ void bind_self(py::module_ &m)
         c.def_property_readonly(indexer[n], [n](const PyInterp &p) { return p.get().indexer_joint[n]; });
     }
 
+    // By spindle.
+    auto per_spindle = [&c](const char *name, int (*value)(const Setup &, size_t)) {
+        c.def_property_readonly(name, [value](const PyInterp &p) {
+            IntArray a;
+            a.owner = p;
+            a.size = CANON_MAX_SPINDLES;
+            a.get = [value](Setup &s, size_t i) { return value(s, i); };
+            return a;
+        });
+    };
+    per_spindle("speed_override", [](const Setup &s, size_t i) { return int(s.speed_override[i]); });
+    per_spindle("spindle_mode", [](const Setup &s, size_t i) { return s.spindle_mode[i]; });
+    per_spindle("spindle_turning", [](const Setup &s, size_t i) { return int(s.spindle_turning[i]); });
     c.def_property_readonly("speed", [](const PyInterp &p) {
         FloatArray a;
         a.owner = p;
@@ -610,8 +626,19 @@ class InterpreterException(Exception):
         self.line_text = line_text
     def __str__(self):
         return "%s, line %d: %s" % (self.error_message, self.line_number, self.line_text)
+
+from enum import IntEnum
+def modes(name, *values):
+    return IntEnum(name, {v: n for n, v in enumerate(values)}, module="interpreter")
+DISTANCE_MODE = modes("DISTANCE_MODE", "MODE_ABSOLUTE", "MODE_INCREMENTAL")
+RETRACT_MODE = modes("RETRACT_MODE", "R_PLANE", "OLD_Z")
+FEED_MODE = modes("FEED_MODE", "UNITS_PER_MINUTE", "INVERSE_TIME", "UNITS_PER_REVOLUTION")
+CUTTER_COMP_DIRECTION = modes("CUTTER_COMP_DIRECTION", "OFF", "RIGHT", "LEFT")
+SPINDLE_MODE = modes("SPINDLE_MODE", "CONSTANT_RPM", "CONSTANT_SURFACE")
 )",
              scope);
+    for (const char *name : {"DISTANCE_MODE", "RETRACT_MODE", "FEED_MODE", "CUTTER_COMP_DIRECTION", "SPINDLE_MODE"})
+        m.attr(name) = scope[name];
     exception_type = scope["InterpreterException"];
     exception_type.attr("__module__") = "interpreter";
     exception_type.inc_ref(); // lives as long as the process
@@ -640,6 +667,8 @@ class InterpreterException(Exception):
     for (const char *same : {"ActiveMcodesArray", "GmodesArray", "MmodesArray"}) m.attr(same) = m.attr("ActiveGcodesArray");
     for (const char *same : {"SpindleSpeedArray", "ActiveSettingsArray", "SubroutineParamsArray"})
         m.attr(same) = m.attr("ParametersArray");
+    m.attr("RemapMap") = py::type::of(py::dict());
+    m.attr("ParameterMap") = py::type::of(py::dict());
     m.attr("this") = py::none();
 }
 
