@@ -3,3 +3,4 @@
 $(eval $(call script,sim-torch,src/hal/user_comps/sim_torch.py))
 $(eval $(call script,z_level_compensation,src/hal/user_comps/z_level_compensation.py))
 $(eval $(call script,mqtt-publisher,src/hal/user_comps/mqtt_publisher.py))
+$(eval $(call script,hal_input,src/hal/user_comps/hal_input.py))
