@@ -7,3 +7,8 @@ $(eval $(call program,halui,src/emc/usr_intf/halui/halui.cc src/emc/nml/emc_args
 $(eval $(call program,linuxcncrsh,$(addprefix src/emc/usr_intf/rsh/,main.cc session.cc subcommands.cc) $(CLIENT_SOURCES),nml linuxcncini linuxcnchal, \
     -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
 $(foreach s,mdi linuxcnctop debuglevel teach-in schedrmt linuxcnclcd,$(eval $(call script,$(s),src/emc/usr_intf/scripts/$(s))))
+
+.PHONY: bench-clients
+bench-clients: all
+	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/clients_bench.py'
+BENCHES += bench-clients
