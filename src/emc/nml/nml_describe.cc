@@ -29,10 +29,11 @@ template <class T> std::string wire_type() {
 }
 
 template <class T> std::string wire_name(const T &sample) {
-    using E = std::remove_cv_t<std::remove_extent_t<std::remove_reference_t<T>>>;
+    using E = std::remove_cv_t<std::remove_all_extents_t<std::remove_reference_t<T>>>;
     std::string name = wire_type<E>();
     if constexpr (std::is_base_of_v<NMLmsg, E>) name = emc_symbol_lookup(E()._type);
     if constexpr (std::is_array_v<T>) name += "[" + std::to_string(sizeof sample / sizeof sample[0]) + "]";
+    if constexpr (std::rank_v<T> == 2) name += "[" + std::to_string(std::extent_v<T, 1>) + "]";
     return name;
 }
 

@@ -52,7 +52,10 @@ int main(int argc, char **argv) {
 
     nml::Server server(emc_messages());
     std::vector<std::unique_ptr<NML>> channels;
-    for (const char *name : {"emcCommand", "emcStatus", "emcError"}) {
+    std::vector<const char *> names = {"emcCommand", "emcStatus", "emcError"};
+    for (const nml::BufferLine &b : nml::buffers_of(file))
+        if (b.name == "emcMessages") names.push_back("emcMessages"); // older files have none
+    for (const char *name : names) {
         std::unique_ptr<NML> channel;
         for (int tries = 0; tries < 50; tries++) {
             channel = std::make_unique<NML>(emc_messages(), name, "emcsvr", file.c_str());

@@ -17,6 +17,7 @@
 
 #include "kerf_clock.h"
 #include "kerf_paths.h"
+#include "nml_config.hh"
 #include "rcs_print.hh"
 #include "task_text.hh"
 
@@ -78,6 +79,8 @@ bool Task::connect_channels() {
         rcs_print_error("can't get %s buffer\n", buffer);
         return false;
     };
+    for (const nml::BufferLine &b : nml::buffers_of(nml ? nml : default_nml_config_file()))
+        if (b.name == "emcMessages" && !connect("emcMessages", &log_channel_)) return false;
     return connect("emcCommand", &command_channel_) && connect("emcStatus", &status_channel_) && connect("emcError", &error_channel_);
 }
 
@@ -258,7 +261,7 @@ void Task::update_motion() {
     if (!error.empty()) {
         EMC_OPERATOR_ERROR m;
         copy_text(m.error, error.c_str());
-        operator_message(m); // motion printed it already
+        operator_message(m, EMC_SOURCE_MOTION); // motion printed it already
     }
     stat_.motion.debug = static_cast<int>(debug_);
     canon_->offsets_applied = motion_.external_offsets_applied();
@@ -485,7 +488,23 @@ void Task::on_abort(int reason, const char *text) {
 
 // ---- messages to the operator ----
 
-int Task::operator_message(NMLmsg &m) {
+void Task::log_message(const NMLmsg &m, EmcMessageSource source) {
+    if (!log_channel_) return;
+    int at = ++log_.count % EMC_MESSAGE_LOG_LENGTH;
+    const char *text = m._type == EMC_OPERATOR_TEXT_TYPE      ? static_cast<const EMC_OPERATOR_TEXT &>(m).text
+                       : m._type == EMC_OPERATOR_DISPLAY_TYPE ? static_cast<const EMC_OPERATOR_DISPLAY &>(m).display
+                                                              : static_cast<const EMC_OPERATOR_ERROR &>(m).error;
+    log_.kind[at] = m._type;
+    log_.source[at] = source;
+    log_.command[at] = command_ ? command_serial_ : 0;
+    log_.time[at] = static_cast<double>(kerf_clock_now_ns()) / 1e9;
+    copy_text(log_.text[at], text);
+    log_channel_->write(log_);
+}
+
+// Into the log, which every client reads, and into the queue, whose messages go to one reader each.
+int Task::operator_message(NMLmsg &m, EmcMessageSource source) {
+    log_message(m, source);
     int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(MESSAGE_PATIENCE_S * 1e9);
     while (error_channel_->get_space_available() < 2 * m.size) {
         if (kerf_clock_now_ns() >= until) {

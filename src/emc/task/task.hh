@@ -105,7 +105,8 @@ private:
     void synch_later();
 
     // ---- messages to the operator; printed too ----
-    int operator_message(NMLmsg &m);
+    int operator_message(NMLmsg &m, EmcMessageSource source = EMC_SOURCE_TASK);
+    void log_message(const NMLmsg &m, EmcMessageSource source);
     void operator_error(const char *text);
     void operator_text(const char *text);
     void operator_display(const char *text);
@@ -128,6 +129,8 @@ private:
     UserCodes user_codes_;
     Child child_;
     std::unique_ptr<NML> command_channel_, status_channel_, error_channel_;
+    std::unique_ptr<NML> log_channel_; // null: the .nml file has none
+    EMC_MESSAGE_LOG log_;
 
     AnyMessage command_;         // the last one read
     int command_serial_ = 0;

@@ -22,10 +22,10 @@ def public(thing):
     return {n for n in dir(thing) if not n.startswith("_")}
 
 
-helpers = {"Joint", "Axis", "Spindle"}
+helpers = {"Joint", "Axis", "Spindle", "Message"}
 top = names(tree.body)
 print("module: missing", sorted(public(linuxcnc) - top.keys()), "more", sorted(top.keys() - public(linuxcnc) - helpers))
-for name in ("stat", "command", "error_channel", "ini", "positionlogger"):
+for name in ("stat", "command", "error_channel", "message_log", "ini", "positionlogger"):
     inside = {n for n in names(top[name].body) if n != "__init__"}
     have = public(getattr(linuxcnc, name))
     print(f"{name}: missing", sorted(have - inside), "more", sorted(inside - have), "some" if len(have) > 0 else "none")

@@ -7,6 +7,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -514,6 +515,51 @@ void define_error_channel(py::module_ &m) {
     cls.def("poll", &ErrorChannel::poll, "The oldest message as (kind, text), or None");
 }
 
+// ---- message log ----
+
+// The last messages to the operator; every reader sees them all.
+class MessageLog {
+public:
+    MessageLog() {
+        std::string f = nml_file();
+        channel_ = std::make_unique<NML>(emc_messages(), "emcMessages", "xemc", f.empty() ? nullptr : f.c_str());
+    }
+    int missed = 0; // messages that came and went between two polls
+
+    py::list poll() {
+        if (!channel_->valid()) raise_error("emcMessages buffer invalid err=" + std::to_string(channel_->error_type));
+        py::list news;
+        if (channel_->peek() != EMC_MESSAGE_LOG_TYPE) return news;
+        const EMC_MESSAGE_LOG &log = *channel_->get<EMC_MESSAGE_LOG>();
+        int oldest = std::max(1, log.count - EMC_MESSAGE_LOG_LENGTH + 1);
+        if (seen_ > log.count) seen_ = 0; // another controller was started
+        if (seen_ > 0 && oldest > seen_ + 1) missed += oldest - seen_ - 1;
+        for (int n = std::max(oldest, seen_ + 1); n <= log.count; n++) {
+            int at = n % EMC_MESSAGE_LOG_LENGTH;
+            py::dict d;
+            d["number"] = n;
+            d["kind"] = log.kind[at];
+            d["text"] = to_python(log.text[at]);
+            d["source"] = log.source[at] == EMC_SOURCE_MOTION ? "motion" : "task";
+            d["command"] = log.command[at];
+            d["time"] = log.time[at];
+            news.append(d);
+        }
+        seen_ = log.count;
+        return news;
+    }
+private:
+    std::unique_ptr<NML> channel_;
+    int seen_ = 0;
+};
+
+void define_message_log(py::module_ &m) {
+    py::class_<MessageLog> cls(m, "message_log", py::dynamic_attr(), "The last messages to the operator; every reader sees them all");
+    cls.def(py::init<>());
+    cls.def("poll", &MessageLog::poll, "Those since the last poll as dicts: number, kind, text, source, command, time");
+    cls.def_readonly("missed", &MessageLog::missed, "messages that came and went between two polls");
+}
+
 void define_constants(py::module_ &m) {
 #define C(NAME, VALUE) m.attr(#NAME) = VALUE;
 #include "constants.def"
@@ -541,6 +587,7 @@ PYBIND11_MODULE(linuxcnc, m) {
     define_stat(m);
     define_command(m);
     define_error_channel(m);
+    define_message_log(m);
     define_ini(m);
     define_positionlogger(m);
     define_constants(m);
