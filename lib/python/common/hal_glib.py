@@ -161,6 +161,7 @@ class _GStat(GObject.GObject):
         GObject.Object.__init__(self)
         self.stat = stat or linuxcnc.stat()
         self.cmd = linuxcnc.command()
+        self.errors = linuxcnc.error_channel()
         self._status_active = False
         self.old = {"state": 0, "mode": 0, "interp": 0, "file": ""}
         self.previous_mode = self.old["mode"]
@@ -215,6 +216,7 @@ class _GStat(GObject.GObject):
             g_codes=s.gcodes, m_codes=s.mcodes, settings=s.settings, call_level=s.call_level, file_name=s.file, program_units=s.program_units,
             spindle_enabled=tuple((sp["enabled"], sp["direction"]) for sp in s.spindle[:max(1, s.spindles)]))
         old["tool_info"] = s.tool_table[0] if s.tool_table else None
+        old["m_codes_text"] = " ".join(f"M{c}" for c in sorted(s.mcodes[1:]) if c != -1)
         speed = self._hal_value("spindle.0.speed-in")
         old["actual_speed"] = None if speed is None else speed * 60.0
         old["at_speed"] = tuple(bool(self._hal_value(f"spindle.{n}.at-speed")) for n in range(max(1, s.spindles)))
@@ -235,8 +237,16 @@ class _GStat(GObject.GObject):
             return True
         self._status_active = True
         self._emit_changes(before)
+        self._emit_errors()
         self.emit("periodic")
         return True
+
+    def _emit_errors(self):
+        try:
+            while message := self.errors.poll():
+                self.emit("error", *message)
+        except linuxcnc.error:
+            pass
 
     def _emit_changes(self, before):
         new = self.old
@@ -315,14 +325,14 @@ class _GStat(GObject.GObject):
                 self.emit("spindle-control-changed", n, bool(enabled), direction, new["at_speed"][n])
         if changed("g_codes"):
             self._emit_codes(before.get("g_codes"))
-        if changed("m_codes"):
-            self.emit("m-code-changed", " ".join(f"M{c}" for c in sorted(new["m_codes"][1:]) if c != -1))
+        if changed("m_codes_text"):
+            self.emit("m-code-changed", new["m_codes_text"])
         settings, was = new["settings"], before.get("settings") or (None,) * 5
         if settings[1] != was[1]:
             self.emit("f-code-changed", settings[1])
         if settings[2] != was[2]:
             self.emit("s-code-changed", settings[2])
-        if settings[3:5] != tuple(was[3:5]):
+        if [round(v, 6) for v in settings[3:5]] != [v and round(v, 6) for v in was[3:5]]:
             self.emit("blend-code-changed", settings[3], settings[4])
         self._emit_positions()
 
