@@ -74,7 +74,15 @@ bool Session::password_is(const std::string &given, const std::string &password)
     return neighbour_ && nml::equal_secret(given, password);
 }
 
-Session::~Session() { close(fd); }
+Session::~Session() {
+    close(fd);
+    for (auto &[nr, mode] : jogs) {
+        EMC_JOG_STOP m;
+        m.joint_or_axis = nr;
+        m.jjogmode = mode;
+        server_.client->send(m);
+    }
+}
 
 void Session::input(const char *data, size_t n) {
     for (size_t i = 0; i < n; i++) {

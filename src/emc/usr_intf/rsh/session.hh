@@ -61,6 +61,8 @@ public:
     void error(const std::string &text) { reply("error: " + text); }
     void warning(const std::string &text) { reply("warning: " + text); }
     std::string output;
+    // Continuous jogs that this connection began (number, jjogmode): they end with it.
+    std::vector<std::pair<int, int>> jogs;
     // Other computers never send a password but its answer to the challenge they asked for:
     // HMAC-SHA256(password, challenge), both in hexadecimal digits. Good once.
     std::string new_challenge();

@@ -527,6 +527,7 @@ const std::vector<Subcommand> &subcommands() {
              double speed;
              if (!jog_target(s, v, a[0], &m.joint_or_axis, &m.jjogmode) || !real(a[1], &speed)) return Result::failed;
              m.vel = speed / 60;
+             s.jogs.emplace_back(m.joint_or_axis, m.jjogmode);
              return give(v, m);
          }},
         {"JOG_INCR", Level::on, true, 0, 3, "joint|axis speed increment", nullptr, SET {
@@ -541,6 +542,7 @@ const std::vector<Subcommand> &subcommands() {
              UNUSED_SET;
              EMC_JOG_STOP m;
              if (!jog_target(s, v, a[0], &m.joint_or_axis, &m.jjogmode)) return Result::failed;
+             s.jogs.erase(std::remove(s.jogs.begin(), s.jogs.end(), std::make_pair(m.joint_or_axis, m.jjogmode)), s.jogs.end());
              return give(v, m);
          }},
         {"JOINT_FAULT", Level::on, false, 0, 0, "[joint]",
