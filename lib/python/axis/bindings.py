@@ -7,6 +7,8 @@ from tkinter import filedialog
 
 import linuxcnc
 
+from . import remote
+
 POLL_MS = 50
 RELEASE_MS = 40      # X repeats a held key as release and press: a release counts after this time
 
@@ -98,6 +100,21 @@ class Bindings:
         self.view.show_code(lines)
         self.view.show_message(path)
 
+    # What other programs ask for (remote.py).
+
+    def reload(self):
+        if self.machine.file:
+            self.load(self.machine.file)
+
+    def send_mdi(self, text):
+        if not self.machine.mdi(text):
+            self.view.show_message("MDI needs the machine on, homed and idle", True)
+
+    def clear_live_plot(self):
+        """The path drawn so far goes away, where the view draws one."""
+        if clear := getattr(self.view, "clear_plot", None):
+            clear()
+
     def mdi(self):
         text = self.view.mdi.get()
         if self.machine.mdi(text):
@@ -155,6 +172,7 @@ def main(argv):
     machine = Machine(ini_path)
     machine.poll()
     bindings = Bindings(root, machine, View(root, machine))
+    remote.serve(root, bindings, lambda: not machine.idle())
     rest = [a for i, a in enumerate(argv) if a != "-ini" and (i == 0 or argv[i - 1] != "-ini")]
     if rest and os.path.isfile(rest[-1]):
         root.after(200, lambda: bindings.load(os.path.abspath(rest[-1])))

@@ -19,3 +19,12 @@ $(MOTION_GEN)/homecomp.c: src/emc/motion/homecomp.comp $(wildcard src/hal/utils/
 	$(call say,HALCOMPILE,$<)
 	$(Q)mkdir -p $(@D) && $(HALCOMPILE) --preprocess --output-dir=$(@D) $<
 $(eval $(call rtmodule,homecomp,$(MOTION_GEN)/homecomp.c))
+
+# Test program of tests/motion: objects/test/motion-handover.
+HANDOVER_OBJECTS := $(call objs,ul,src/emc/motion/test/handover.c src/emc/motion/emcmotutil.c)
+$(HANDOVER_OBJECTS): EXTRA += -Isrc/emc/motion
+$(O)/test/motion-handover: $(HANDOVER_OBJECTS) $(T)/lib/liblinuxcnchal.so
+	$(call say,LINK,$@)
+	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $(HANDOVER_OBJECTS) -L$(T)/lib -llinuxcnchal -lpthread -lm -Wl,-rpath,'$$ORIGIN/../../lib'
+DEPS += $(HANDOVER_OBJECTS:.o=.d)
+EXTRA_TARGETS += $(O)/test/motion-handover

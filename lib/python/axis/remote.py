@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What axis-remote asks of the screen, by Tk's `send axis remote VERB [ARGUMENT]`."""
+
+import subprocess
+
+BUSY = "axis cannot accept remote command while running"
+
+
+def serve(root, screen, running):
+    """Names the program `axis` and answers `remote`. screen has load(path), reload(), send_mdi(text),
+    clear_live_plot() and quit(); running() is true while a program runs."""
+    for entry in ("gdm", "root"):  # Tk takes commands of others only when xauth alone guards the display
+        try:
+            subprocess.run(["xhost", f"-SI:localuser:{entry}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=5)
+        except (OSError, subprocess.TimeoutExpired):
+            break
+    root.tk.call("tk", "appname", "axis")
+    verbs = {"open_file_name": screen.load, "reload_file": screen.reload, "send_mdi_command": screen.send_mdi, "clear_live_plot": screen.clear_live_plot,
+             "destroy": lambda: root.after_idle(screen.quit)}
+
+    def remote(verb="", *arguments):
+        if verb not in verbs:
+            return f"unknown remote command '{verb}'"
+        if verb != "clear_live_plot" and running():
+            return BUSY
+        verbs[verb](*arguments)
+        return ""
+
+    root.createcommand("remote", remote)
