@@ -364,12 +364,11 @@ py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
         throw std::runtime_error("parse_file interp_error");
     }
     int line = canon.last_delivered() > 0 ? canon.last_delivered() : 0;
+    if (status != INTERP_FILE_NOT_OPEN) canon.announce();
     if (status > INTERP_MIN_ERROR) {
         if (status == INTERP_ERROR) saved_error = interp->error_text(status);
         const Fault &fault = interp->fault();
         line = status == INTERP_ERROR && fault.file == file ? fault.line : line + extra;
-    } else {
-        canon.announce();
     }
     return py::make_tuple(status, line);
 }

@@ -583,8 +583,10 @@ int Interp::execute(const char *line)
         if (!s.mdi) {
             s.mdi = true;
             s.mdi_source = s.source;
-            if (s.source >= 0) s.mdi_offset = s.sources[size_t(s.source)]->tell();
-            s.mdi_line = s.sequence_number;
+            if (s.source >= 0) {
+                s.mdi_offset = s.sources[size_t(s.source)]->tell();
+                s.mdi_line = s.sources[size_t(s.source)]->line_number;
+            }
             s.source = -1;
         }
         s.sequence_number = s.mdi_number;

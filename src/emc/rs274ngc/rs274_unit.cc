@@ -142,7 +142,8 @@ void mdi_leaves_the_program_where_it_was()
     write_file("prog.ngc", "G0 X1\nG0 X2\nG0 X3\nM2\n");
     EXPECT(m.interp.open("prog.ngc") == INTERP_OK);
     EXPECT(m.interp.read() == INTERP_OK && m.interp.execute() == INTERP_OK);
-    EXPECT(m.interp.execute("G0 Y9") == INTERP_OK);
+    EXPECT(m.interp.execute("G0 Y9") == INTERP_OK && m.interp.execute("G0 Y9") == INTERP_OK);
+    EXPECT(m.interp.read() == INTERP_OK && m.interp.sequence_number() == 2 && m.interp.execute() == INTERP_OK);
     EXPECT(run_to_end(m.interp) == INTERP_EXIT);
     EXPECT(m.canon.position.tran.x == 3 && m.canon.position.tran.y == 9);
     unlink("prog.ngc");
