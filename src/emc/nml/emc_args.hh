@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// emc_args.hh - command line that all NML programs share: -ini FILE, -rcsdebug, -queryhost,
-// -host HOST. Anything else is left alone. [init]
+// emc_args.hh - what all NML programs share: the command line -ini FILE, -rcsdebug, -queryhost,
+// -host HOST (anything else is left alone), and the settings of messages in the INI file. [init]
 #ifndef KERF_EMC_ARGS_HH
 #define KERF_EMC_ARGS_HH
 
+#include <cstdint>
 #include <string>
+
+#include "inifile.hh"
 
 struct EmcArgs {
     std::string ini_file = "emc.ini";
     bool ini_given = false;
     EmcArgs(int argc, char **argv);
 };
+
+// Messages of the library as [EMC]DEBUG, RCS_DEBUG, RCS_DEBUG_DEST and RCS_MAX_ERR say. Returns DEBUG.
+uint64_t set_rcs_print(const linuxcnc::IniFile &ini);
 
 #endif

@@ -41,10 +41,7 @@ int main(int argc, char **argv) {
     EmcArgs args(argc, argv);
     linuxcnc::IniFile ini;
     if (!ini.open(args.ini_file)) return 1;
-    uint64_t debug = ini.findUIntV("DEBUG", "EMC", 0);
-    if (auto flags = ini.findUInt("RCS_DEBUG", "EMC")) set_rcs_print_flag(static_cast<uint32_t>(*flags));
-    else if (debug & (EMC_DEBUG_RCS | EMC_DEBUG_NML)) set_rcs_print_flag(PRINT_EVERYTHING);
-    max_rcs_errors_to_print = ini.findIntV("RCS_MAX_ERR", "EMC", -1);
+    uint64_t debug = set_rcs_print(ini);
     if (debug & EMC_DEBUG_CONFIG)
         rcs_print("linuxcncsvr: machine '%s' version '%s'\n", ini.findStringV("MACHINE", "EMC", "<unknown>").c_str(),
                   ini.findStringV("VERSION", "EMC", "unknown").c_str());

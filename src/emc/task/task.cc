@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "emc_args.hh"
 #include "kerf_clock.h"
 #include "kerf_paths.h"
 #include "nml_config.hh"
@@ -106,14 +107,8 @@ bool Task::make_interpreter() {
 
 bool Task::start() {
     if (!ini_.open(ini_file_)) return false;
-    debug_ = static_cast<unsigned>(ini_.findUIntV("DEBUG", "EMC", 0));
+    debug_ = static_cast<unsigned>(set_rcs_print(ini_));
     stat_.debug = static_cast<int>(debug_);
-    if (auto flags = ini_.findUInt("RCS_DEBUG", "EMC")) set_rcs_print_flag(static_cast<uint32_t>(*flags));
-    else if (debug_ & (EMC_DEBUG_RCS | EMC_DEBUG_NML)) set_rcs_print_flag(PRINT_EVERYTHING);
-    if (auto dest = ini_.findMap<RCS_PRINT_DESTINATION_TYPE>({{"STDOUT", RCS_PRINT_TO_STDOUT}, {"STDERR", RCS_PRINT_TO_STDERR},
-            {"FILE", RCS_PRINT_TO_FILE}, {"LOGGER", RCS_PRINT_TO_LOGGER}, {"MSGBOX", RCS_PRINT_TO_MESSAGE_BOX}, {"NULL", RCS_PRINT_TO_NULL}},
-            "RCS_DEBUG_DEST", "EMC")) set_rcs_print_destination(*dest);
-    max_rcs_errors_to_print = ini_.findIntV("RCS_MAX_ERR", "EMC", -1);
     if (debug_ & EMC_DEBUG_CONFIG)
         rcs_print("task: machine '%s' version '%s'\n", ini_.findStringV("MACHINE", "EMC", "<unknown>").c_str(), ini_.findStringV("VERSION", "EMC", "unknown").c_str());
     if (auto t = ini_.findReal("CYCLE_TIME", "TASK")) cycle_time_ = *t;

@@ -94,3 +94,13 @@ print(server.wait_log("one connection too many"), good.number(COUNT, COMMAND) is
 for s in crowd:
     s.close()
 server.stop()
+
+print("== where the log goes")
+for what, ini, lines in (("two errors at most", "RCS_MAX_ERR = 2", 2), ("nowhere", "RCS_DEBUG_DEST = NULL", 0), ("no errors", "RCS_DEBUG = 0x100", 0), ("standard error", "RCS_DEBUG_DEST = stderr", 4)):
+    server = Server("", ini)
+    for n in range(4):
+        c = Client()
+        c.request(99, COMMAND)
+        c.dropped()
+    print(what, server.log().count("dropped") == lines)
+    server.stop()

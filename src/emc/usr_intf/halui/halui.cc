@@ -319,6 +319,7 @@ private:
 bool Halui::read_ini(const std::string &file) {
     linuxcnc::IniFile ini;
     if (!ini.open(file)) return false;
+    set_rcs_print(ini);
     nml_file_ = ini.findStringV("NML_FILE", "EMC", "");
     auto positive = [&](const char *name, double *v) { if (auto r = ini.findReal(name, "DISPLAY"); r && *r > 0) *v = *r; };
     positive("MAX_FEED_OVERRIDE", &max_feed_override_);

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "emc_args.hh"
 #include "kerf_clock.h"
 #include "nml_auth.hh"
 #include "rcs_print.hh"
@@ -348,6 +349,7 @@ bool Server::open_port(int family, const char *address) {
 
 bool Server::start() {
     if (!ini.open(options.ini_file)) return false;
+    set_rcs_print(ini);
     ini_version = ini.findStringV("VERSION", "EMC", "1.1");
     servo_period_s_ = ini.findRealV("SERVO_PERIOD", "EMCMOT", 1e7) * 1e-9;
     std::string nml = ini.findStringV("NML_FILE", "EMC", "");
