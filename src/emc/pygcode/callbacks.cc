@@ -365,6 +365,7 @@ py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
     }
     int line = canon.last_delivered() > 0 ? canon.last_delivered() : 0;
     if (status != INTERP_FILE_NOT_OPEN) canon.announce();
+    if (status == INTERP_ENDFILE) line = canon.last_delivered() + 1; // behind the closing %
     if (status > INTERP_MIN_ERROR) {
         if (status == INTERP_ERROR) saved_error = interp->error_text(status);
         const Fault &fault = interp->fault();

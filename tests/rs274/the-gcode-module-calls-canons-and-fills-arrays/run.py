@@ -64,7 +64,7 @@ with tempfile.TemporaryDirectory() as d:
     result, log = parse("G0 X1\nG1 X2 F1\nX[#<nope>]\nM2\n")
     check(result == (5, 3) and gcode.strerror(5) == "Named parameter #<nope> not defined", (result, gcode.strerror(5)))
     check(parse("G0 X1\n")[0][0] == 5 and "File ended" in gcode.strerror(5), "no end")
-    check(parse("%\nG0 X1\n%\n")[0] == (3, 2), parse("%\nG0 X1\n%\n")[0])
+    check(parse("%\nG0 X1\n%\n")[0] == (3, 4), parse("%\nG0 X1\n%\n")[0])
     check(gcode.parse(d + "/nothere", Canon(d), ["G20"])[0] == 4 and gcode.strerror(4) == "File not open", "no file")
 
     result, log = parse("%\n#1=2\nG1 X1 F1\n(none)\nX[#<nope>]\n%\n", codes=["G21", "G90", "G17"])
