@@ -76,7 +76,7 @@ struct cell {
     int16_t type;
     int16_t with_top;           /* the left side is connected with that of the cell above */
     struct var_ref var;
-    int32_t output, before;     /* of the scan: state on the right; value at the last evaluation */
+    int32_t output, before;     /* of the scan: state on the right; variable at the last evaluation */
 };
 
 struct rung {

@@ -8,7 +8,7 @@
  * Grammar, from the weakest: or := xor ('|' xor)*; xor := and ('^' and)*;
  * and := sum ('&' sum)*; sum := product (('+' | '-') product)*;
  * product := power (('*' | '/' | '%') power)*; power := term ('^' term)*;
- * term := '!' term | '(' or ')' | number | '-' number | '$' hex | '\'' char '\'' | variable |
+ * term := '!' term | '(' or ')' | number | '-' term | '$' hex | '\'' char '\'' | variable |
  * function '(' or (',' or)* ')'. A '^' is therefore always a power, which squares the left
  * side as many times as the right side says.
  */
@@ -130,8 +130,12 @@ static void term(struct parser *p)
     } else if(accept(p, '@')) {
         struct var_ref ref = variable(p);
         emit(p, OP_VAR, 0)->var = ref;
-    } else if(isdigit((unsigned char)*p->at) || *p->at == '-') {
+    } else if(isdigit((unsigned char)*p->at) || (*p->at == '-' && isdigit((unsigned char)p->at[1]))) {
         emit(p, OP_CONST, (int)number(p, 10));
+    } else if(accept(p, '-')) {
+        emit(p, OP_CONST, 0);
+        term(p);
+        emit(p, OP_SUB, 0);
     } else {
         function(p);
     }

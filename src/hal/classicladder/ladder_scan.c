@@ -44,11 +44,10 @@ static int left_of(const struct rung *r, int x, int y)
 
 static void contact(struct ladder *l, struct rung *r, struct cell *c, int x, int y)
 {
-    int value = ladder_read_ref(l, &c->var) != 0, pass;
-    if(c->type == EL_NC || c->type == EL_FALLING) value = !value;
-    pass = value;
+    int value = ladder_read_ref(l, &c->var) != 0;
+    int pass = c->type == EL_NC || c->type == EL_FALLING ? !value : value;
     if(c->type == EL_RISING || c->type == EL_FALLING) {
-        pass = value && !c->before;
+        pass = pass && value != c->before;
         c->before = value;
     }
     c->output = pass && left_of(r, x, y);

@@ -70,7 +70,7 @@ def project() -> str:
     text += "_FILE-timers_iec.csv\n2,3,0\n_/FILE-timers_iec.csv\n"              # 0.3 s
     text += "_FILE-monostables.csv\n2,2\n_/FILE-monostables.csv\n"              # 0.2 s
     text += "_FILE-counters.csv\n3\n_/FILE-counters.csv\n"
-    text += ("_FILE-arithmetic_expressions.csv\n#VER=2.0\n0000,@270/0@*2+1>MAXI(7,@270/0@)\n"
+    text += ("_FILE-arithmetic_expressions.csv\n#VER=2.0\n0000,--@270/0@*2+1>MAXI(7,-(-@270/0@))\n"
              "0001,@280/0@:=(@270/0@+$10)/3-'A'&255|ABS(-1)\n0002,@280/1@=@280/1@+1\n"
              "_/FILE-arithmetic_expressions.csv\n")
     text += ("_FILE-sections.csv\n#VER=1.0\n#NAME000=Main\n#NAME001=Sub\n#NAME002=Chart\n"
@@ -92,14 +92,12 @@ class Model:
 
     def __init__(self):
         self.i0 = 0
-        self.first = True
         self.rest = 0                   # ms of a unit of the timer; outlives a restart
         self.latch = self.ton = self.mono = self.mono_value = self.count = self.index_bits = 0
         self.step = self.b5 = self.steps_word = self.call = 0
 
     def scan(self, i0: int, i1: int, i2: int, w: int) -> list[int]:
-        rising, falling = i0 and not self.i0, not i0 and (self.i0 or self.first)
-        self.first = False
+        rising, falling = i0 and not self.i0, not i0 and self.i0
         self.latch = 0 if i1 else (1 if i0 else self.latch)
         ton = i0 and self.ton >= 3
         if not i0:
