@@ -60,10 +60,9 @@ def points():
 sleep(0.1)
 one = points()[0][-1]
 print("point:", [round(v, 3) + 0.0 for v in one[:3]], one[3:7], len(p.points()[0]) == 32 * p.npts)
-mdi("G1 F300 X10")
-mdi("G1 Y10")
-mdi("G0 X0")
-until(lambda s: (at := p.last(0)) and abs(at[0]) < 1e-3 and abs(at[1] - 10) < 1e-3, 30)
+for line, corner in (("G1 F3000 X10", (10, 0)), ("G1 Y10", (10, 10)), ("G0 X0", (0, 10))):
+    mdi(line)
+    until(lambda s: (at := p.last(0)) and abs(at[0] - corner[0]) < 1e-3 and abs(at[1] - corner[1]) < 1e-3, 1000)
 path, xyuv = points()
 near = lambda c: any(abs(q[0] - c[0]) < 1 and abs(q[1] - c[1]) < 1 for q in path)
 print("corners:", all(near(c) for c in ((0, 0), (10, 0), (10, 10), (0, 10))), "few:", len(path) < 60, "colors:", sorted({q[3:7] for q in path if q[3:7] in (tuple(colors[1]), tuple(colors[2]))}), xyuv)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """clients_bench.py: how fast clients get through to the controller, in real time.
 
-Starts the simulated mill and prints the time from the launcher's start to the screen's, from a
+Prints the speed of an NML queue, starts the simulated mill and prints the time from the launcher's start to the screen's, from a
 Python command to its effect in the status (median, 99 %), and status polls a second with 1, 10 and
 50 clients.
 """
@@ -83,7 +83,16 @@ def measure():
     print(f"task cycles/s meanwhile: {stat.taskbeat - beat}")
 
 
+def queue_speed(messages=16000):
+    """Messages a second through one queue, from eight clients at once."""
+    env = dict(os.environ, KERF_INSTANCE=f"{os.environ.get('KERF_INSTANCE', '')[:8]}b{os.getpid() % 1000}")
+    begin = time.monotonic()
+    subprocess.run([top / "objects/test/nml-test", "many-clients-lose-nothing"], env=env, check=True, stdout=subprocess.DEVNULL)
+    print(f"NML queue, 8 writers: {messages / (time.monotonic() - begin):.0f} messages/s")
+
+
 def main():
+    queue_speed()
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / "mill"
         shutil.copytree(top / "configs/sim/mill", folder)
