@@ -10,12 +10,12 @@
 
 #define CUT_BUDGET 32      /* cells made in a cycle, */
 #define SAMPLE_BUDGET 12   /* and samples of the joints taken for them, */
-#define RIPEN_BUDGET 4096  /* pieces looked at to make cells, */
+#define RIPEN_BUDGET 1024  /* pieces looked at to make cells, */
 #define SWEEP_BUDGET 512   /* and by the envelope */
-#define RIPEN_SCAN 160     /* pieces that a bound may reach over, each side */
 #define RIPEN_PARTS 32     /* most cells made of a piece */
 #define RIPEN_GRADE 0.25   /* growth of cells away from the ends of a piece */
 #define SPLIT 0.15         /* share of acceleration that a cell may lose to changing curvature; */
+#define LOSS_SHARE 0.6     /* of acceleration in use, before that counts */
 #define SPLITS 3           /* it is halved up to so many times */
 #define KIN_SPLITS 6       /* and where joints are sampled */
 #define KIN_STEP 16.0      /* units, deg: longest cell there */
@@ -152,8 +152,8 @@ static int fill_rows(struct traj *tj, const struct traj_cell *c, const struct pa
     return 0;
 }
 
-/* Bound of acceleration that a cell's jerk leaves, the speed being at most `top` and the acceleration
- * changing from one bound to the other within the filter's window. */
+/* Bound of acceleration that a cell's jerk leaves when the mean's speed is at most `top` and the
+ * acceleration changes from one bound to the other within the filter's window. */
 static double jerk_bound(const struct traj_row *rows, int count, double top, double window, double share)
 {
     double u = 1e30;
@@ -166,6 +166,20 @@ static double jerk_bound(const struct traj_row *rows, int count, double top, dou
         if (change > 1e-12) u = fmin(u, fmax(0, share * r->j - r->most3 * top * top * top) / change);
     }
     return u;
+}
+
+/* The same at b = 0, cap / 2 and cap. While step() is at b, or anywhere above, the mean is no faster than
+ * by what the bounds u allow in half a window: this makes more of them where motion is slower than it
+ * might be. In b it is concave where speed is above that gain; below cap / 2 it is taken as constant. */
+static void jerk_bounds(const struct traj_row *rows, int count, double top, double cap, double window, double share, double u, double bound[3])
+{
+    double slow = sqrt(cap / 2), gain;
+
+    bound[2] = jerk_bound(rows, count, top, window, share);
+    bound[1] = bound[0] = bound[2];
+    gain = fmin(u, jerk_bound(rows, count, 0, window, share)) * window / 2;
+    if (slow < gain || slow + gain >= top) return;
+    bound[1] = bound[0] = jerk_bound(rows, count, slow + gain, window, share);
 }
 
 /* Bounds of motion on the cell from the limits of axes and joints and the path's derivatives. Returns
@@ -216,11 +230,13 @@ static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int 
 
     /* Rows |q1 u + q2 b| <= A for all q1, q2 in their ranges, and |q1 u| <= A. With u of one sign
      * they are bounds of u that are concave in b: two chords over [0, cap] lie inside. */
-    double up[3], down[3], most_u = share * g->acc;
-    if (jerk) most_u = fmin(most_u, jerk_bound(rows, count, c->top, window, share));
+    double up[3], down[3], by_jerk[3] = { 1e30, 1e30, 1e30 }, most_u = share * g->acc;
+    for (int i = 0; i < count; i++)
+        if (rows[i].a > 0) most_u = fmin(most_u, share * rows[i].a / fmax(1e-12, fmax(rows[i].hi1, -rows[i].lo1)));
+    if (jerk) jerk_bounds(rows, count, c->top, cap, window, share, most_u, by_jerk);
     for (int n = 0; n < 3; n++) {
         double b = cap * n / 2;
-        up[n] = down[n] = most_u;
+        up[n] = down[n] = fmin(most_u, by_jerk[n]);
         for (int i = 0; i < count; i++) {
             const struct traj_row *r = &rows[i];
             if (r->a <= 0) continue;
@@ -242,7 +258,8 @@ static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int 
     for (int i = 0; i < count; i++) {
         const struct traj_row *r = &rows[i];
         if (r->a <= 0) continue;
-        if (r->hi2 > r->lo2 && cap < fed) spread = fmax(spread, (r->hi2 - r->lo2) * cap / (share * r->a));
+        if (r->hi2 > r->lo2 && cap < fed && cap * fmax(r->hi2, -r->lo2) > LOSS_SHARE * share * r->a)
+            spread = fmax(spread, (r->hi2 - r->lo2) * cap / (share * r->a));
         /* joints: also by a changing slope where that joint sets the bound */
         double q1 = fmax(r->hi1, -r->lo1);
         if (sampled && q1 * up[0] > 0.8 * share * r->a) spread = fmax(spread, (r->hi1 - r->lo1) / q1);
@@ -258,7 +275,7 @@ static double snap_end(const struct traj *tj, double end, double tiny)
     return end;
 }
 
-double path_jerk(const struct traj *tj, const struct traj_seg *g)
+double traj_jerk(const struct traj *tj, const struct traj_seg *g)
 {
     const struct limits *lim = &tj->lim;
     double j = 1e300;
@@ -290,7 +307,7 @@ static int choose_window(const struct traj *tj, uint32_t index)
     for (uint32_t t = index; t != tj->end && t - index < CELL_MOVES; t++) {
         const struct traj_seg *g = traj_cseg(tj, t);
         if (t != index && g->join == JOIN_REST) break;
-        int n = traj_window(tj, planned_speed(tj, g), g->acc, path_jerk(tj, g));
+        int n = traj_window(tj, planned_speed(tj, g), g->acc, traj_jerk(tj, g));
         if (n > most) most = n;
     }
     return most;
@@ -304,7 +321,7 @@ static int cut_piece(struct traj *tj, int *samples)
     uint32_t j;
 
     if (tj->s_final - a <= tiny || tj->blocked) return 0;
-    if (tj->piece_end - tj->piece_ripe >= TRAJ_PIECES - 2 * RIPEN_SCAN) return 0;
+    if (tj->piece_end - tj->piece_ripe >= TRAJ_PIECES - 2 * TRAJ_REACH) return 0;
     while (tj->cut_seg + 1 != tj->end && a >= traj_seg(tj, tj->cut_seg)->s1 - tiny) tj->cut_seg++;
     struct traj_seg *g = traj_seg(tj, tj->cut_seg);
     end = tj->s_final;
@@ -323,6 +340,10 @@ static int cut_piece(struct traj *tj, int *samples)
                 continue;
             }
             if (q->solo) end = fmin(end, hi);
+            for (int side = -1; q->curl > 0 && side <= 1; side += 2) { /* corners of the bend */
+                double corner = q->s0 + 0.75 * side * q->w;
+                if (corner > a + tiny) end = fmin(end, corner);
+            }
             if (q->w > 0) {
                 rounded = 1;
                 step = fmin(step, q->w / 4);
@@ -421,123 +442,130 @@ static double biggest_acc(const struct traj_cell *p)
     return fmax(p->up[0].c1, p->down[0].c1);
 }
 
-/* How far the bounds of `by` reach into piece p; acc: the largest on the way. */
-static double mean_reach(const struct traj_cell *p, const struct traj_cell *by, double half, double acc)
+static inline double lesser(double a, double b)
 {
-    return half * fmin(by->top, p->top + acc * half);
+    return a < b ? a : b;
 }
 
-/* Pieces in reach of piece p: from .. to. 0: more of the path must be known first. */
-struct reach {
-    uint32_t from, to;
-    double half, acc;
-};
-
-static int find_reach(struct traj *tj, struct reach *r)
+static inline double greater(double a, double b)
 {
-    const struct traj_cell *p = piece_at(tj, tj->piece_ripe), *by;
+    return a > b ? a : b;
+}
+
+/* A bound that reaches `far` counts from or up to a place in piece p; on all of p where that is short. */
+static void note_reach(struct traj_reach *r, const struct traj_cell *p, const struct traj_cell *by, double far, double from, double to)
+{
     double end = p->s0 + p->len;
 
-    *r = (struct reach){ tj->piece_ripe, tj->piece_ripe, p->window * tj->dt / 2, biggest_acc(p) };
-    for (uint32_t n = tj->piece_ripe + 1; r->to - tj->piece_ripe < RIPEN_SCAN; n++) {
-        double limit = r->half * (p->top + r->acc * r->half);
+    if (from >= end || to <= p->s0) return;
+    if (p->len < RIPEN_GRADE * far) from = p->s0, to = end;
+    if (from > p->s0 || to < end) r->whole = 0;
+    r->by[r->count] = by;
+    r->from[r->count] = greater(from, p->s0);
+    r->to[r->count++] = lesser(to, end);
+}
+
+/* 0: more of the path must be known first. */
+static int find_reach(struct traj *tj, struct traj_reach *r)
+{
+    const struct traj_cell *p = piece_at(tj, tj->piece_ripe), *by;
+    double end = p->s0 + p->len, half = p->window * tj->dt / 2, acc = biggest_acc(p);
+    uint32_t first = tj->piece_ripe, last = tj->piece_ripe;
+
+    for (uint32_t n = tj->piece_ripe + 1; last - tj->piece_ripe < TRAJ_REACH; n++) {
+        double limit = half * (p->top + acc * half);
         if (n == tj->piece_end) {
             if (tj->cut_s - end < limit && !path_closed(tj)) return 0;
             break;
         }
         by = piece_at(tj, n);
         if (by->rest || by->s0 - end > limit) break;
-        r->acc = fmax(r->acc, biggest_acc(by));
-        r->to = n;
+        acc = greater(acc, biggest_acc(by));
+        last = n;
     }
-    for (by = p; r->from != 0 && !by->rest && tj->piece_ripe - r->from < RIPEN_SCAN; r->from--) {
-        by = piece_at(tj, r->from - 1);
-        if (p->s0 - by->s0 - by->len > r->half * (p->top + r->acc * r->half)) break;
-        r->acc = fmax(r->acc, biggest_acc(by));
+    for (by = p; first != 0 && !by->rest && tj->piece_ripe - first < TRAJ_REACH; first--) {
+        by = piece_at(tj, first - 1);
+        if (p->s0 - by->s0 - by->len > half * (p->top + acc * half)) break;
+        acc = greater(acc, biggest_acc(by));
+    }
+    double limit = p->top + acc * half;
+    r->count = 0;
+    r->whole = 1;
+    for (uint32_t n = first; n != tj->piece_ripe; n++) {
+        by = piece_at(tj, n);
+        double far = half * lesser(by->top, limit);
+        note_reach(r, p, by, far, p->s0, by->s0 + by->len + far);
+    }
+    note_reach(r, p, p, 0, p->s0, end);
+    for (uint32_t n = tj->piece_ripe + 1; (int32_t)(last - n) >= 0; n++) {
+        by = piece_at(tj, n);
+        double far = half * lesser(by->top, limit);
+        note_reach(r, p, by, far, by->s0 - far, end);
     }
     return 1;
-}
-
-/* The part of p, the piece that gets ripe, where bounds of piece n hold; 0: none. */
-static int held_part(struct traj *tj, const struct reach *r, uint32_t n, double *from, double *to)
-{
-    const struct traj_cell *p = piece_at(tj, tj->piece_ripe), *by = piece_at(tj, n);
-    double far = mean_reach(p, by, r->half, r->acc);
-
-    *from = p->s0;
-    *to = p->s0 + p->len;
-    if (n == tj->piece_ripe) return 1;
-    if ((int32_t)(n - tj->piece_ripe) > 0) *from = fmax(*from, by->s0 - far);
-    else *to = fmin(*to, by->s0 + by->len + far);
-    return *from < *to;
 }
 
 /* End of the cell of piece p that begins at s: the next place where a bound begins or ends, or the last
  * of several such places that are near. What is near grows from both ends of the piece towards its
  * middle: that bounds the number of cells. */
-static double cell_end(struct traj *tj, const struct reach *r, double s)
+static double cell_end(const struct traj_cell *p, const struct traj_reach *r, double s)
 {
-    const struct traj_cell *p = piece_at(tj, tj->piece_ripe);
-    double end = p->s0 + p->len, near = s + fmax(RIPEN_GRADE * fmin(end - s, s - p->s0), 1e-6 * p->len);
-    double group = s, next = end, at[2];
+    double end = p->s0 + p->len, near = s + greater(RIPEN_GRADE * lesser(end - s, s - p->s0), 1e-6 * p->len);
+    double group = s, next = end;
 
-    for (uint32_t n = r->from; (int32_t)(r->to - n) >= 0; n++) {
-        if (n == tj->piece_ripe || !held_part(tj, r, n, &at[0], &at[1])) continue;
-        for (int k = 0; k < 2; k++) {
-            if (at[k] <= near) group = fmax(group, at[k]);
-            else next = fmin(next, at[k]);
-        }
+    if (r->whole) return end;
+    for (int n = 0; n < r->count; n++) {
+        if (r->from[n] > near) next = lesser(next, r->from[n]);
+        else group = greater(group, r->from[n]);
+        if (r->to[n] > near) next = lesser(next, r->to[n]);
+        else group = greater(group, r->to[n]);
     }
     return group > s ? group : next;
 }
 
-/* Makes the cell of piece p that begins at s; whole: up to the end of p. Returns its end. */
-static double make_cell(struct traj *tj, const struct reach *r, double s, int whole)
+/* Makes the cell of piece p from s to end. */
+static void make_cell(struct traj *tj, const struct traj_cell *p, const struct traj_reach *r, double s, double end)
 {
-    const struct traj_cell *p = piece_at(tj, tj->piece_ripe);
     struct traj_cell *c = cell_at(tj, tj->cell_end);
-    double next = p->s0 + p->len, from, to;
     double up[3] = { 1e30, 1e30, 1e30 }, down[3] = { 1e30, 1e30, 1e30 };
 
-    if (!whole) next = cell_end(tj, r, s);
     *c = *p;
     c->s0 = s;
-    c->len = next - s;
+    c->len = end - s;
     c->rest = p->rest && s == p->s0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (uint32_t n = r->from; (int32_t)(r->to - n) >= 0; n++) {
-            const struct traj_cell *by = piece_at(tj, n);
-            if (!held_part(tj, r, n, &from, &to) || from >= next || to <= s) continue;
-            if (pass == 0) {
-                c->cap = fmin(c->cap, by->cap);
-                continue;
-            }
-            for (int k = 0; k < 3; k++) {
-                up[k] = fmin(up[k], allowed(by->up, c->cap * k / 2));
-                down[k] = fmin(down[k], allowed(by->down, c->cap * k / 2));
-            }
+    for (int n = 0; n < r->count; n++)
+        if (r->from[n] < end && r->to[n] > s) c->cap = lesser(c->cap, r->by[n]->cap);
+    for (int n = 0; n < r->count; n++) {
+        const struct traj_cell *by = r->by[n];
+        if (r->from[n] >= end || r->to[n] <= s) continue;
+        for (int k = 0; k < 3; k++) {
+            double b = c->cap * k / 2;
+            up[k] = lesser(up[k], lesser(by->up[0].c1 - by->up[0].c2 * b, by->up[1].c1 - by->up[1].c2 * b));
+            down[k] = lesser(down[k], lesser(by->down[0].c1 - by->down[0].c2 * b, by->down[1].c1 - by->down[1].c2 * b));
         }
     }
     chords(c->up, up, c->cap);
     chords(c->down, down, c->cap);
     tj->cell_end++;
-    return next;
 }
 
 void ripen_pieces(struct traj *tj)
 {
+    struct traj_reach *r = &tj->reach;
+
     for (int work = 0; work < RIPEN_BUDGET && tj->piece_ripe != tj->piece_end; work++) {
         const struct traj_cell *p = piece_at(tj, tj->piece_ripe);
-        struct reach r;
         if (tj->cell_end - tj->cell_first >= TRAJ_CELLS - 2 * RIPEN_PARTS) return;
         if (p->window <= 1) {
             *cell_at(tj, tj->cell_end++) = *p;
         } else {
-            if (!find_reach(tj, &r)) return;
+            if (!find_reach(tj, r)) return;
             double s = p->s0, end = p->s0 + p->len;
             for (int n = 1; s < end; n++) {
-                s = make_cell(tj, &r, s, n >= RIPEN_PARTS);
-                work += 4 * (int)(r.to - r.from + 1);
+                double to = n < RIPEN_PARTS ? cell_end(p, r, s) : end;
+                make_cell(tj, p, r, s, to);
+                s = to;
+                work += r->count;
             }
         }
         tj->piece_ripe++;

@@ -59,11 +59,13 @@ static double jerk_ratio(const struct traj *tj, const double value[PATH_AXES])
     return tj->lim.jerk_on ? worst_ratio(tj, value, tj->lim.j, 3) : 0;
 }
 
-/* Widest rounding that a move's end may ask for, whatever follows. */
+/* Widest rounding that a move's end may ask for, whatever follows. Where short moves are smoothed over
+ * several, the next rounding may be wider than the one before, and as wide as that reaches back. */
 static double tail_reserve(const struct traj *tj, const struct traj_seg *g)
 {
     double half = g->prim.len / 2, v, a = 0, wide;
 
+    if (g->join == JOIN_ROUND && g->curl == 0) half = fmax(half, GROW * g->w);
     if (g->end == TRAJ_STOP) return 0;
     if (!(g->tol > 0)) return half;
     v = planned_speed(tj, g);

@@ -22,6 +22,7 @@
 #define OUTPUT_LAG 2      /* cycles from the planner to a joint's command: motmod's interpolator */
 #define SYNC_EXCESS 1.02   /* a spindle that asks for so much more than the limit is refused */
 #define TAP_OVERRUN 10    /* revolutions that a tap may run on after the spindle was reversed */
+#define STAND_TIME 2.0     /* s without motion and without a reason that motmod shows: reported */
 #define ABORT_FOLLOW 0.1  /* s that an aborted tap goes on following while the spindle is not stopped */
 
 /* Outputs that a move switches when it starts. */
@@ -84,6 +85,7 @@ struct planner {
     double tolerance;
     double vmax, ini_maxvel, vlimit, amax;
     int pausing, aborting;
+    double standing;        /* s without motion though nothing holds it */
     int done;
     int64_t entered;        /* last move whose start was reported, -1 none */
     int unlocked_joint;     /* rotary joint that was unlocked for the executing move, -1 none */
@@ -482,6 +484,19 @@ static void read_limits(struct planner *pl)
     limits_read(&tj->lim, status->planner_type == 1, status->jerk);
 }
 
+/* FP-044: a jerk-limited planner without limits of jerk is told about, once. */
+static void note_no_jerk(const struct planner *pl, const struct traj_move *move, int64_t index)
+{
+    static int told;
+    const struct traj *tj = &pl->tj;
+
+    if (told || !tj->lim.jerk_on || fmin(move->jerk, status->jerk) >= 1 || move->mark) return;
+    if (traj_jerk(tj, traj_cseg(tj, (uint32_t)index)) > 0) return; /* joints have one */
+    told = 1;
+    rtapi_print_msg(RTAPI_MSG_ERR, "S-curve: segment max jerk < 1 (unset [AXIS_*]MAX_JERK or [TRAJ]MAX_LINEAR_JERK?) - "
+                    "trapezoidal fallback used for such segments (reported once)\n");
+}
+
 /* Appends a move whose path, feed and info are filled in, except for outputs and sync. */
 static int append(struct planner *pl, struct traj_move *move, struct move_info *info)
 {
@@ -507,6 +522,7 @@ static int append(struct planner *pl, struct traj_move *move, struct move_info *
         rtapi_print_msg(RTAPI_MSG_ERR, "tcqPut failed.\n");
         return TP_ERR_FAIL;
     }
+    note_no_jerk(pl, move, index);
     struct move_info *stored = &pl->info[index & (TRAJ_SEGS - 1)];
     *stored = *info;
     stored->has_outputs = pl->pending.digital || pl->pending.analog;
@@ -866,6 +882,33 @@ static double stop_place(struct planner *pl)
     return status->stepping ? traj_seg(tj, tj->cur)->s1 : NAN;
 }
 
+/* Motion that stands though moves are queued and nothing that motmod shows holds it: says why. */
+static void watch_standing(struct planner *pl, double place)
+{
+    struct traj *tj = &pl->tj;
+    const struct traj_seg *g = traj_seg(tj, tj->cur);
+    const struct move_info *info = &pl->info[tj->cur & (TRAJ_SEGS - 1)];
+    double before = pl->standing;
+
+    if (tj->place != place || tj->end == tj->first || tj->drive.hold || tj->drive.reverse || tj->in_mark ||
+        traj_waiting(tj) >= 0 || !(tj->drive.scale > 0) || !isnan(tj->drive.stop_s)) {
+        pl->standing = 0;
+        return;
+    }
+    pl->standing += pl->cycle;
+    if (before >= STAND_TIME || pl->standing < STAND_TIME) return;
+    if (info->sync.mode != SYNC_OFF)
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits: spindle %d does not turn\n", info->id, info->sync.spindle);
+    else if (!(g->feed > 0))
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits: its feed is zero\n", info->id);
+    else if (!(tj->drive.vlimit > 0))
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits: the limit of speed is set to zero\n", info->id);
+    else
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: motion stands for %g s without a reason, %u moves queued; "
+                        "place %.9g in %.9g to %.9g, cells %u %u %u, final to %.9g\n", info->id, STAND_TIME, depth(pl),
+                        tj->place, g->s0, g->s1, tj->cell_first, tj->cell, tj->cell_end, tj->s_final);
+}
+
 int tpRunCycle(TP_STRUCT *tp, long period)
 {
     struct planner *pl = planner_of(tp);
@@ -902,7 +945,9 @@ int tpRunCycle(TP_STRUCT *tp, long period)
     if (waiting >= 0 && may_start(tp, pl, (uint32_t)waiting)) traj_release(tj);
     tj->drive.sync_speed = sync_speed(pl);
     uint32_t from = tj->cur;
+    double place = tj->place;
     traj_cycle(tj);
+    watch_standing(pl, place);
     memcpy(pl->pos, tj->pos, sizeof pl->pos);
     follow_moves(pl, from);
     enter_moves(pl);
@@ -912,7 +957,7 @@ int tpRunCycle(TP_STRUCT *tp, long period)
     }
     moving_status(pl, before);
     if (traj_blocked(tj) && !pl->aborting) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: the machine cannot follow the path from here, the kinematics have no solution\n",
+        rtapi_print_msg(RTAPI_MSG_ERR, "kinematicsInverse failed: line %d cannot be followed beyond this place\n",
                         pl->exec_id);
         status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
         pl->pausing = pl->aborting = 1;

@@ -462,7 +462,7 @@ int traj_active(const struct traj *tj)
 double traj_acc(const struct traj *tj, uint32_t index)
 {
     const struct traj_seg *g = traj_cseg(tj, index);
-    double j = path_jerk(tj, g), window = g->window > 1 ? g->window : 1;
+    double j = traj_jerk(tj, g), window = g->window > 1 ? g->window : 1;
     return (j > 0 ? fmin(g->acc, j * window * tj->dt / 2) : g->acc) / g->stretch;
 }
 

@@ -121,6 +121,15 @@ struct traj_cell {
     double kr;           /* b allowed at s0 when running backward */
 };
 
+/* Pieces in reach of a piece, in order of the path, and the parts of it where their bounds hold. */
+#define TRAJ_REACH 160 /* pieces that a bound may reach over, each side */
+struct traj_reach {
+    int count;
+    const struct traj_cell *by[2 * TRAJ_REACH + 1];
+    double from[2 * TRAJ_REACH + 1], to[2 * TRAJ_REACH + 1];
+    int whole; /* all hold on all of the piece */
+};
+
 /* What step() aims at; set before each cycle. */
 struct traj_drive {
     double scale;      /* feed override now, >= 0; 0 holds */
@@ -195,6 +204,7 @@ struct traj {
         struct limits_jet jet[3];
         struct traj_row rows[PATH_AXES + LIMITS_JOINTS];
     } scratch;
+    struct traj_reach reach; /* of the piece that gets ripe */
 
     /* counters of what cost speed, for diagnosis */
     uint64_t n_forced, n_rest, n_portions;
@@ -231,6 +241,9 @@ int traj_blocked(const struct traj *tj);
 int traj_at_rest(const struct traj *tj);
 /* At rest at the end of all moves. */
 int traj_done(const struct traj *tj);
+/* Limit of jerk along a move, 0 = none. Joints that are sampled: by the time they take to build up
+ * their acceleration. */
+double traj_jerk(const struct traj *tj, const struct traj_seg *g);
 /* Acceleration of a move that begins a run, metric units/s^2, with the limit of jerk. */
 double traj_acc(const struct traj *tj, uint32_t index);
 /* Seconds by which the position lags behind what drive asks for. */

@@ -8,7 +8,7 @@
 
 #include "traj.h"
 
-#define JERK_CURVE 0.6     /* share of jerk that a path's third derivative may use at constant speed: */
+#define JERK_CURVE 0.75    /* share of jerk that a path's third derivative may use at constant speed: */
                            /* the rest is for changes of speed */
 #define JOIN_JERK 0.5      /* share of jerk that the width of a rounding is made for */
 #define KINK_SHARE 0.5     /* of one cycle's acceleration, for the velocity step of a kink */
@@ -48,9 +48,6 @@ void rounded_jet(const struct traj *tj, uint32_t index, double s, struct path_je
 
 /* ---- cell.c ---- */
 
-/* Limit of jerk along a move, 0 = none. Joints that are sampled: by the time they take to build up
- * their acceleration. */
-double path_jerk(const struct traj *tj, const struct traj_seg *g);
 /* Cap of b by the feeds of a cell's moves. */
 double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit);
 /* Cuts the final path into pieces, makes cells of those that are ripe, and brings the envelope up to date; each within

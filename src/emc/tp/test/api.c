@@ -3,59 +3,7 @@
  * api.c - named promises of the planner's interface. Prints one line per promise;
  * exit status 1 when one is broken. `api NAME` runs one only.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "bench.h"
-
-static struct bench b;
-static int broken;
-
-#define CHECK(cond, ...)                                        \
-    do {                                                        \
-        if (!(cond)) {                                          \
-            broken++;                                           \
-            printf("  line %d: %s: ", __LINE__, #cond);         \
-            printf(__VA_ARGS__);                                \
-            printf("\n");                                       \
-        }                                                       \
-    } while (0)
-
-static void mill(double v, double a)
-{
-    bench_init(&b, 0.001);
-    for (int i = 0; i < AXES; i++) bench_axis(&b, i, v, a, 50 * a);
-    b.config.maxFeedScale = 2;
-    bench_start(&b, 0);
-}
-
-static void limits_kept(void)
-{
-    CHECK(b.worst_v <= 1.0001, "velocity ratio %g", b.worst_v);
-    CHECK(b.worst_a <= 1.0001, "acceleration ratio %g axis %d cycle %llu", b.worst_a, b.worst_a_axis, (unsigned long long)b.worst_a_at);
-    CHECK(b.worst_dev <= 1.0001, "deviation ratio %g (%g)", b.worst_dev, b.worst_off);
-}
-
-static struct prog *go(double x, double y, double z, double feed, int term, double tol)
-{
-    double p[AXES] = { x, y, z };
-    return bench_line(&b, p, feed > 0 ? EMC_MOTION_TYPE_FEED : EMC_MOTION_TYPE_TRAVERSE, feed, term, tol);
-}
-
-static void send_all(void)
-{
-    while (b.next < b.n) bench_send(&b);
-}
-
-static uint64_t finish(uint64_t limit)
-{
-    uint64_t n = 0;
-    while (!tpIsDone(&b.tp) && n < limit) bench_cycle(&b), n++;
-    CHECK(tpIsDone(&b.tp), "not done after %llu cycles", (unsigned long long)n);
-    return n;
-}
+#include "cases.h"
 
 /* ---- the spindle of the bench: position integrates speed, encoder with index ---- */
 
@@ -624,11 +572,7 @@ static void the_same_program_runs_the_same_every_time(void)
 
 /* ---- */
 
-#define CASE(f) { #f, f }
-static const struct {
-    const char *name;
-    void (*run)(void);
-} cases[] = {
+static const struct test_case cases[] = {
     CASE(a_single_move_takes_the_optimal_time),
     CASE(collinear_pieces_run_as_one_line),
     CASE(exact_stop_rests_on_every_corner),
@@ -654,16 +598,4 @@ static const struct {
     CASE(the_same_program_runs_the_same_every_time),
 };
 
-int main(int argc, char **argv)
-{
-    int failed = 0;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        if (argc > 1 && strcmp(argv[1], cases[i].name)) continue;
-        bench_verbose = argc > 1;
-        broken = 0;
-        cases[i].run();
-        printf("%s %s\n", broken ? "FAIL" : "ok", cases[i].name);
-        failed += broken != 0;
-    }
-    return failed != 0;
-}
+CASES_MAIN

@@ -13,6 +13,7 @@
 #include "rtapi.h"
 
 int bench_verbose;
+char bench_message[300];
 
 static struct bench *active; /* callbacks of the planner have no context */
 
@@ -20,10 +21,10 @@ void rtapi_print_msg(msg_level_t level, const char *fmt, ...)
 {
     va_list ap;
     (void)level;
-    if (!bench_verbose) return;
     va_start(ap, fmt);
-    vfprintf(stderr, fmt, ap);
+    vsnprintf(bench_message, sizeof bench_message, fmt, ap);
     va_end(ap);
+    if (bench_verbose) fputs(bench_message, stderr);
 }
 
 uint64_t rnd(uint64_t *state)
@@ -128,6 +129,7 @@ void bench_joint(struct bench *b, int joint, double v, double a, double j)
 void bench_init(struct bench *b, double dt)
 {
     memset(b, 0, sizeof *b);
+    *bench_message = 0;
     b->dt = dt;
     b->check_every = 1;
     b->status.net_feed_scale = 1;

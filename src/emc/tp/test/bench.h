@@ -66,6 +66,7 @@ struct bench {
 };
 
 extern int bench_verbose;
+extern char bench_message[300]; /* last one that the planner printed since bench_init */
 
 /* Random numbers (splitmix64): the whole test hangs from one seed. */
 uint64_t rnd(uint64_t *state);
