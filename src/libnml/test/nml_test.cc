@@ -2,6 +2,7 @@
 //
 // nml_test.cc - cases of tests/nml: `nml-test CASE [file.nml]` prints what happened. Uses the
 // controller's messages and buffers of its own instance.
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/ipc.h>
 #include <sys/shm.h>
@@ -299,12 +300,103 @@ static void tcp_carries_every_message() {
     serving.join();
 }
 
+// What each documented form of B and P line gives: the state of the connection and what was printed.
+static void configuration_lines() {
+    struct { const char *what, *buffer, *process, *text; } cases[] = {
+        {"a plain one", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"comments, short lines, continued", "a", "p", "# B a\n B a SHMEM\nx\nB a SHMEM localhost 4096 \\\n0 0 1 4 7001 queue\nP p a LOCAL localhost \\\nRW 0 INF 1 0\n"},
+        {"options in any case, hexadecimal", "a", "p", "B a SHMEM localhost 0x1000 0 0 1 4 0x1b59 Queue Confirm_Write SERIAL mutex=OS_SEM xdr\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"default buffer of the process", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP q a LOCAL localhost W 0 1.0 1 0\nP p default LOCAL localhost RW 0 1.0 1 0\n"},
+        {"default of all", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP default default LOCAL localhost RW 0 1.0 1 0\n"},
+        {"AUTO on this computer", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a AUTO localhost RW 0 1.0 1 0\n"},
+        {"autocnum with nine words", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 autocnum\nP p a LOCAL localhost RW 0 1.0 1\n"},
+        {"in this process", "a", "p", "B a LOCMEM localhost 4096 0 0 1 4 0\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"phantom", "a", "p", "B a PHANTOM localhost 4096 0 0 1 4 0\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"phantom process", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a PHANTOM localhost RW 0 1.0 1 0\n"},
+        {"nobody made it", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7002\nP p a LOCAL localhost RW 0 1.0 0 0\n"},
+        {"no such buffer", "b", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"no such process", "a", "q", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"connection number too large", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 4\n"},
+        {"split and queue", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue split\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"UDP", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 UDP=5\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"GLOBMEM", "a", "p", "B a GLOBMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"remote without a port", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a REMOTE localhost RW 0 1.0 1 0\n"},
+        {"remote without a server", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 TCP=1\nP p a REMOTE localhost RW 0 1.0 1 0\n"}};
+    const char *name = "configuration.nml";
+    int fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (fd < 0) return;
+    for (auto &c : cases) {
+        if (ftruncate(fd, 0) != 0 || pwrite(fd, c.text, strlen(c.text), 0) < 0) return;
+        printf("%s: ", c.what);
+        NML n(emc_messages(), c.buffer, c.process, name);
+        EMC_JOINT_HOME h;
+        h.joint = 3;
+        bool good = n.valid() && n.write(h) == 0;
+        printf("valid %d error %d status %d written %d read %d queue %d space %s\n", n.valid(), n.error_type, n.status, good, n.valid() ? n.read() : -1, n.valid() ? n.get_queue_length() : -1,
+               n.valid() && n.get_space_available() > 0 ? "yes" : "no");
+    }
+    int id = shmget(kerf_instance_key(7001), 0, 0);
+    if (id >= 0) shmctl(id, IPC_RMID, nullptr);
+    close(fd);
+    unlink(name);
+    printf("no such file: ");
+    printf("%d\n", NML(emc_messages(), "a", "p", "/nonexistent/file.nml").error_type);
+    for (int s = -16; s <= 6; s++) printf("%d->%d ", s, nml_error_of(static_cast<CMS_STATUS>(s)));
+    printf("\n");
+}
+
+// Permissions, sizes, waiting, was-read marks of one value buffer and one queue.
+static void calls_give_the_documented_results() {
+    Master m;
+    NML task = open_as("emcStatus", "emc"), screen = open_as("emcStatus", "xemc"), errors = open_as("emcError", "xemc"), writer = open_as("emcError", "emc");
+    int r = task.read();
+    printf("a writer that reads: %d %d\n", r, task.status);
+    EMC_NULL null;
+    r = screen.write(null);
+    printf("a reader that writes: %d %d\n", r, screen.status);
+    null.size = 0;
+    r = writer.write(null);
+    printf("size 0: %d %d\n", r, writer.error_type);
+    EMC_NULL none;
+    none._type = 0;
+    r = writer.write(none);
+    printf("type 0: %d %d\n", r, writer.error_type);
+    writer.clear();
+    EMC_STAT big;
+    r = writer.write(big);
+    printf("too big: %d status %d error %d\n", r, writer.status, writer.error_type);
+    r = errors.blocking_read(0.01);
+    printf("blocking read, nothing comes: %d %d %d\n", r, errors.status, errors.error_type);
+    EMC_OPERATOR_TEXT text;
+    writer.write(text);
+    printf("queue: %d %d", errors.get_queue_length(), errors.check_if_read());
+    printf(" peek %d", errors.peek());
+    printf(" still %d", errors.get_queue_length());
+    printf(" read %d", errors.blocking_read(1));
+    printf(" then %d %d messages %d\n", errors.get_queue_length(), errors.check_if_read(), errors.get_msg_count());
+    task.write(big);
+    printf("value: read? %d", screen.check_if_read());
+    printf(" peek %d", screen.peek());
+    printf(" read? %d", screen.check_if_read());
+    task.write(big);
+    printf(" read %d", screen.read());
+    printf(" read? %d", screen.check_if_read());
+    printf(" again %d", screen.read());
+    printf(" queue %d\n", screen.get_queue_length());
+    printf("if read: %d", task.write_if_read(big));
+    r = task.write_if_read(big);
+    printf(" %d error %d status %d\n", r, task.error_type, task.status);
+    m.status.clear();
+    printf("cleared: %d\n", screen.peek());
+    printf("symbols: %s %s\n", emc_symbol_lookup(124), emc_symbol_lookup(4711));
+}
+
 int main(int argc, char **argv) {
     const std::map<std::string, void (*)()> cases = {
         {"queue-keeps-order", queue_keeps_order}, {"error-queue-holds-25", error_queue_holds_25}, {"full-queue-refuses", full_queue_refuses},
         {"status-is-last-value", status_is_last_value}, {"status-is-never-torn", status_is_never_torn},
         {"killed-client-blocks-nobody", killed_client_blocks_nobody}, {"many-clients-lose-nothing", many_clients_lose_nothing},
-        {"tcp-carries-every-message", tcp_carries_every_message}};
+        {"tcp-carries-every-message", tcp_carries_every_message}, {"configuration-lines", configuration_lines}, {"calls-give-the-documented-results", calls_give_the_documented_results}};
     auto it = argc > 1 ? cases.find(argv[1]) : cases.end();
     if (it == cases.end()) {
         for (auto &c : cases) printf("%s\n", c.first.c_str());
