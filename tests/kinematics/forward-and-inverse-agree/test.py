@@ -7,7 +7,7 @@ import random
 import subprocess
 import tempfile
 
-SETS, POINTS, SHOW = 3, 2000, 40
+SETS, POINTS, SHOW = 4, 3000, 40
 
 
 def sc(deg):
@@ -235,7 +235,8 @@ TRT = {n: SMALL for n in ("x-rot-point", "y-rot-point", "z-rot-point", "x-offset
 TRSRN = {"tool-offset-z": LEN(0, 100), "z-pivot": LEN(100, 200), "x-offset": SMALL, "y-offset": SMALL, "z-rot-axis": SMALL,
          "pre-rot": LEN(-1, 1), "nut-angle": LEN(20, 70), "primary-angle": LEN(-90, 90), "secondary-angle": LEN(-90, 90)}
 FIVE = "-500:500,-500:500,-500:500,-100:100,-400:400"
-ARM = "-170:170,-220:40,-50:220,-110:170,10:100,-260:260"
+ARM = "-170:170,-220:40,-50:220,-110:170,-100:100,-260:260"
+BENT = "-170:170,-220:40,-50:220,-110:170,10:100,-260:260"
 
 # module, prefix, parameters, kinscheck arguments, forward, inverse
 MODULES = [
@@ -275,7 +276,7 @@ MODULES = [
                                      enumerate((0, -math.pi / 2, 0, -math.pi / 2, math.pi / 2, -math.pi / 2))},
                                   **{f"D-{i}": LEN(d, d + 30) for i, d in enumerate((0, 0, 60, 390, 0, 0))},
                                   **{f"unrotate-{i}": (lambda rng: rng.choice([0, 0, 1, -1])) for i in range(6)}},
-     f"perturb=10 joint_tolerance=100000000 ranges={ARM},-9:9,-9:9,-9:9", f_genser, None),
+     f"perturb=10 joint_tolerance=100000000 ranges={BENT},-9:9,-9:9,-9:9", f_genser, None),
     ("genhexkins", "genhexkins", {"tool-offset": LEN(0, 1), "spindle-offset": LEN(0, 1)},
      "by=pose perturb=10000 ranges=-5:5,-5:5,20:40,-20:20,-20:20,-20:20", None, i_hexapod),
     ("genhexkins", "genhexkins", {"screw-lead": LEN(0.05, 0.3), "tool-offset": LEN(0, 1)},
