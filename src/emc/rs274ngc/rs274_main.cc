@@ -98,8 +98,10 @@ bool get_line(std::string *line)
         return true;
     }
 #endif
-    fputs("READ => ", stdout);
-    fflush(stdout);
+    if (isatty(0)) { // nobody reads a prompt elsewhere, and calls are all that pipes expect
+        fputs("READ => ", stdout);
+        fflush(stdout);
+    }
     char *text = nullptr;
     size_t room = 0;
     ssize_t n = getline(&text, &room, stdin);
