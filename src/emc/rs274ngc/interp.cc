@@ -656,6 +656,94 @@ void Interp::restore_offsets(const double *values, const EmcPose &tool_offset)
     s->canon.USE_TOOL_LENGTH_OFFSET(s->tool_offset);
 }
 
+void Interp::take_state(const Interp &other)
+{
+    Setup &to = *s;
+    const Setup &from = *other.s;
+    to.current = from.current;
+    to.g92 = from.g92;
+    to.g5x = from.g5x;
+    to.tool_offset = from.tool_offset;
+    to.rotation = from.rotation;
+    to.origin_index = from.origin_index;
+    to.motion_mode = from.motion_mode;
+    to.plane = from.plane;
+    to.units = from.units;
+    to.distance_mode = from.distance_mode;
+    to.ijk_distance_mode = from.ijk_distance_mode;
+    to.feed_mode = from.feed_mode;
+    to.retract_mode = from.retract_mode;
+    to.lathe_diameter = from.lathe_diameter;
+    to.control_mode = from.control_mode;
+    to.tolerance = from.tolerance;
+    to.naivecam_tolerance = from.naivecam_tolerance;
+    to.feed_rate = from.feed_rate;
+    to.last_f = from.last_f;
+    to.traverse_rate = from.traverse_rate;
+    to.active_spindle = from.active_spindle;
+    to.num_spindles = from.num_spindles;
+    to.feed_override = from.feed_override;
+    to.adaptive_feed = from.adaptive_feed;
+    to.feed_hold = from.feed_hold;
+    to.flood = from.flood;
+    to.mist = from.mist;
+    to.g43_with_zero_offset = from.g43_with_zero_offset;
+    to.tools = from.tools;
+    to.tools_last = from.tools_last;
+    to.current_pocket = from.current_pocket;
+    to.selected_pocket = from.selected_pocket;
+    to.selected_tool = from.selected_tool;
+    to.cycle_r = from.cycle_r;
+    to.cycle_cc = from.cycle_cc;
+    to.cycle_p = from.cycle_p;
+    to.cycle_q = from.cycle_q;
+    to.cycle_i = from.cycle_i;
+    to.cycle_j = from.cycle_j;
+    to.cycle_k = from.cycle_k;
+    to.cycle_l = from.cycle_l;
+    to.cycle_il = from.cycle_il;
+    to.cycle_il_flag = from.cycle_il_flag;
+    to.program_x = from.program_x;
+    to.program_y = from.program_y;
+    to.program_z = from.program_z;
+    to.parameters = from.parameters;
+    to.parameter_file = from.parameter_file;
+    to.parameter_file_bad = from.parameter_file_bad;
+    to.parameter_file_text = from.parameter_file_text;
+    to.parameter_file_time = from.parameter_file_time;
+    to.parameter_file_inode = from.parameter_file_inode;
+    to.globals = from.globals;
+    to.return_value = from.return_value;
+    to.value_returned = from.value_returned;
+    to.loop_on_m99 = from.loop_on_m99;
+    to.last_g0 = from.last_g0;
+    to.last_g92 = from.last_g92;
+    to.last_stop = from.last_stop;
+    to.last_toolchange = from.last_toolchange;
+    for (int i = 0; i < CANON_MAX_SPINDLES; ++i) {
+        to.speed[i] = from.speed[i];
+        to.spindle_turning[i] = from.spindle_turning[i];
+        to.spindle_mode[i] = from.spindle_mode[i];
+        to.speed_override[i] = from.speed_override[i];
+    }
+    to.frames[0].modes = from.frames[0].modes;
+    to.frames[0].locals = from.frames[0].locals;
+}
+
+void Interp::keep_parameters(bool on) { s->parameters_read_only = !on; }
+
+void Interp::spindle_switched(int spindle, CANON_DIRECTION turning)
+{
+    for (int i = 0; i < s->num_spindles; ++i)
+        if (spindle < 0 || spindle == i) s->spindle_turning[i] = turning;
+}
+
+void Interp::coolant_switched(bool mist, bool flood)
+{
+    s->mist = mist;
+    s->flood = flood;
+}
+
 // ---- asking ------------------------------------------------------------------------
 
 void Interp::active_g_codes(int *codes) const { active_g(*s, codes); }

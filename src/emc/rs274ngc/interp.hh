@@ -104,6 +104,15 @@ class Interp
     void get_offsets(double *values) const;
     void restore_offsets(const double *values, const EmcPose &tool_offset);
 
+    /// Becomes like `other` in modes, positions, tools and parameters, after init and before
+    /// open. Calls no canon, whose state must be taken over too; writes no parameter file until
+    /// keep_parameters(true). For looking ahead in a program.
+    void take_state(const Interp &other);
+    void keep_parameters(bool on);
+    /// The operator switched these by hand while nothing runs: saved states (M70, M73) have it so.
+    void spindle_switched(int spindle, CANON_DIRECTION turning); ///< -1: all
+    void coolant_switched(bool mist, bool flood);
+
     // ---- what is going on -----------------------------------------------------
     /// 0 line, 1 motion, 2 group 0, 3 plane, 4 comp, ...: codes times ten, -1 none
     void active_g_codes(int *codes) const;

@@ -20,6 +20,7 @@ public:
     }
     explicit operator bool() const { return bytes_ != nullptr; }
     const NMLmsg &operator*() const { return *reinterpret_cast<const NMLmsg *>(bytes_.get()); }
+    NMLmsg &operator*() { return *reinterpret_cast<NMLmsg *>(bytes_.get()); }
     NMLTYPE type() const { return bytes_ ? (**this)._type : 0; }
     void reset() { bytes_.reset(); }
 private:

@@ -4,6 +4,7 @@
 #include "io_control.hh"
 
 #include <cstdio>
+#include <cstring>
 #include <sstream>
 
 #include "rcs_print.hh"
@@ -48,6 +49,7 @@ bool IoControl::create(const linuxcnc::IniFile &ini) {
     stat_.io.tool.pocketPrepped = -1;
     stat_.io.status = RCS_DONE;
     if (!load_file("")) rcs_print("can't load tool table.\n");
+    news_.clear(); // it is loaded once more by init()
 
     comp_ = hal_init("iocontrol.0");
     if (comp_ < 0) {
@@ -209,8 +211,8 @@ bool IoControl::move_tool(int idx) {
         tooldata_put(next, 0);
         tooldata_put(spindle, idx);
         if (database_) {
-            tooldata_db_notify(SPINDLE_UNLOAD, spindle.toolno, idx, spindle);
-            tooldata_db_notify(SPINDLE_LOAD, next.toolno, 0, next);
+            tell_database(SPINDLE_UNLOAD, spindle.toolno, idx, spindle);
+            tell_database(SPINDLE_LOAD, next.toolno, 0, next);
         }
         return save_table();
     }
@@ -218,12 +220,12 @@ bool IoControl::move_tool(int idx) {
         spindle.toolno = 0;
         spindle.pocketno = 0;
         tooldata_put(spindle, 0);
-        if (database_) tooldata_db_notify(SPINDLE_UNLOAD, 0, 0, spindle);
+        if (database_) tell_database(SPINDLE_UNLOAD, 0, 0, spindle);
         return true;
     }
     tooldata_get(&next, idx);
     tooldata_put(next, 0);
-    if (database_) tooldata_db_notify(SPINDLE_LOAD, next.toolno, 0, next);
+    if (database_) tell_database(SPINDLE_LOAD, next.toolno, 0, next);
     return true;
 }
 
@@ -231,15 +233,48 @@ bool IoControl::save_table() {
     if (database_) return true;
     if (table_.empty()) {
         rcs_print("No filename. Are you missing INI-entry [EMCIO]TOOL_TABLE?\n");
+        news_.push_back("[EMCIO]TOOL_TABLE is missing: the tools can not be saved");
         return false;
     }
-    return tooldata_save(table_.c_str()) == 0;
+    if (tooldata_save(table_.c_str()) == 0) return true;
+    take_problems();
+    return false;
+}
+
+// False, and the operator is told, when the program is gone: what it does not hear is lost.
+bool IoControl::tell_database(tool_notify_t what, int toolno, int pocketno, const CANON_TOOL_TABLE &rec) {
+    if (tooldata_db_active() && tooldata_db_notify(what, toolno, pocketno, rec) == 0) return true;
+    news_.push_back("the tool database program does not answer: what happened to tool " + std::to_string(toolno) + " is not kept");
+    return false;
+}
+
+// One text for each problem of the tool table, for the operator.
+void IoControl::take_problems() {
+    constexpr int MOST = 10;
+    std::istringstream in(tooldata_problems());
+    int count = 0;
+    for (std::string line; std::getline(in, line);)
+        if (++count <= MOST) news_.push_back(line);
+    if (count > MOST) news_.push_back("... and " + std::to_string(count - MOST) + " more, listed on the terminal");
+}
+
+std::vector<std::string> IoControl::news() {
+    std::vector<std::string> n;
+    n.swap(news_);
+    return n;
 }
 
 bool IoControl::load_file(const std::string &file) {
     const std::string &name = file.empty() ? table_ : file;
+    if (database_ && !tooldata_db_active()) {
+        database_ = false;
+        news_.push_back("the tool database program has ended: the tools are those of [EMCIO]TOOL_TABLE now");
+        if (name.empty()) return false;
+    }
     if (name.empty() && !database_) return true; // no table: no tools, which is not an error
-    return tooldata_load(name.c_str()) == 0;
+    const bool good = tooldata_load(name.c_str()) == 0;
+    take_problems();
+    return good;
 }
 
 int IoControl::load_table(const char *file) {
@@ -252,7 +287,7 @@ int IoControl::load_table(const char *file) {
             CANON_TOOL_TABLE rec;
             if (tooldata_get(&rec, i) != IDX_OK || rec.toolno != stat_.io.tool.toolInSpindle) continue;
             tooldata_put(rec, 0);
-            if (database_) tooldata_db_notify(SPINDLE_LOAD, rec.toolno, 0, rec);
+            if (database_) tell_database(SPINDLE_LOAD, rec.toolno, 0, rec);
             break;
         }
     }
@@ -261,15 +296,38 @@ int IoControl::load_table(const char *file) {
 }
 
 int IoControl::set_offset(const EMC_TOOL_SET_OFFSET &m) {
+    // Clients name the tool and always give index 0, which is the spindle: the tool's own record
+    // is the one that is kept.
+    int idx = m.pocket;
+    const int in_spindle = stat_.io.tool.toolInSpindle;
+    const bool home_only = !random_ && idx == 0;
+    if (home_only)
+        for (int i = 1; i <= tooldata_last_index_get() && idx == 0; i++) {
+            CANON_TOOL_TABLE other;
+            if (tooldata_get(&other, i) == IDX_OK && other.toolno == m.toolno) idx = i;
+        }
     CANON_TOOL_TABLE rec = tooldata_entry_init();
-    tooldata_get(&rec, m.pocket);
+    tooldata_get(&rec, idx);
+    const CANON_TOOL_TABLE before = rec;
     rec.toolno = m.toolno;
     rec.offset = m.offset;
     rec.diameter = m.diameter;
     rec.frontangle = m.frontangle;
     rec.backangle = m.backangle;
     rec.orientation = m.orientation;
-    bool good = tooldata_put(rec, m.pocket) != IDX_FAIL && save_table();
+    if (home_only && idx > 0 && memcmp(&rec, &before, sizeof rec) == 0) { // the interpreter names both records
+        if (m.toolno == in_spindle || in_spindle == 0) tooldata_put(rec, 0);
+        stat_.io.status = RCS_DONE;
+        return 0;
+    }
+    bool good = tooldata_put(rec, idx) != IDX_FAIL;
+    // A fixed changer's spindle record is a copy: of its own tool it follows, as an empty one does.
+    if (!random_ && idx > 0 && home_only && (m.toolno == in_spindle || in_spindle == 0)) tooldata_put(rec, 0);
+    if (database_) {
+        if (random_ || idx > 0) good = tell_database(TOOL_OFFSET, m.toolno, idx, rec) && good;
+    } else {
+        good = save_table() && good;
+    }
     stat_.io.status = good ? RCS_DONE : RCS_ERROR;
     return good ? 0 : -1;
 }

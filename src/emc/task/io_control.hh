@@ -41,7 +41,11 @@ public:
     int mist(bool on);
     void abort(int reason);
 
+    // What went wrong with the tool table since the last call, for the operator.
+    std::vector<std::string> news();
+
     std::vector<double> tool_change_position; // [EMCIO]TOOL_CHANGE_POSITION: 0, 3, 6 or 9 values
+    bool changing() const { return *pins_->tool_change; } // a change waits for tool-changed
     bool random() const { return random_; }
 
 private:
@@ -54,11 +58,14 @@ private:
     bool move_tool(int idx);
     bool save_table();
     bool load_file(const std::string &file);
+    void take_problems();
+    bool tell_database(tool_notify_t what, int toolno, int pocketno, const CANON_TOOL_TABLE &rec);
     EMC_STAT &stat_;
     Pins *pins_ = nullptr;
     int comp_ = -1;
     bool random_ = false, database_ = false;
     std::string table_;
+    std::vector<std::string> news_;
 };
 
 #endif

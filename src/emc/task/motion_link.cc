@@ -691,7 +691,7 @@ int MotionLink::load_positions(const std::string &file) {
     if (!f) return 0;
     double pos[EMCMOT_MAX_JOINTS];
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) {
-        if (fscanf(f, "%lf", &pos[j]) != 1) {
+        if (fscanf(f, "%lf", &pos[j]) != 1 || !std::isfinite(pos[j])) {
             rcs_print("emcPositionLoad: failed to load joint %d position from %s, ignoring\n", j, file.c_str());
             fclose(f);
             return 0;

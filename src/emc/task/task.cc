@@ -24,7 +24,8 @@
 
 namespace {
 
-constexpr double CHANNEL_RETRY_S = 1.0, CHANNEL_PATIENCE_S = 10.0, MESSAGE_PATIENCE_S = 5.0;
+constexpr double CHANNEL_RETRY_S = 1.0, CHANNEL_PATIENCE_S = 10.0;
+constexpr size_t MESSAGES_MOST = 1000; // to the operator, while nobody reads them
 constexpr int64_t MOTION_PATIENCE_NS = 60'000'000'000; // wall time
 constexpr int64_t MS = 1'000'000;
 
@@ -85,24 +86,35 @@ bool Task::connect_channels() {
     return connect("emcCommand", &command_channel_) && connect("emcStatus", &status_channel_) && connect("emcError", &error_channel_);
 }
 
-// The built-in interpreter, or the one of the library [TASK]INTERPRETER names.
-bool Task::make_interpreter() {
+// The built-in interpreter, or the one of the library [TASK]INTERPRETER names; null with a message.
+std::unique_ptr<Interp> Task::make_interpreter(TaskCanon &canon) {
     auto name = ini_.findString("INTERPRETER", "TASK");
-    if (!name || name->empty()) {
-        interp_ = std::make_unique<Interp>(*canon_);
-        return true;
-    }
+    if (!name || name->empty()) return std::make_unique<Interp>(canon);
     std::string file = (*name)[0] == '/' ? *name : std::string(kerf_path(KERF_PATH_LIB)) + "/linuxcnc/" + *name;
     void *library = dlopen(file.c_str(), RTLD_NOW);
     auto make = library ? reinterpret_cast<makeInterp_t>(dlsym(library, "makeInterp")) : nullptr;
     if (!make) {
         const char *why = dlerror();
         rcs_print_error("emcTaskInit: could not open interpreter '%s': %s\n", file.c_str(), why ? why : "it has no function makeInterp");
-        return false;
+        return nullptr;
     }
-    rcs_print("emcTaskInit: using custom interpreter '%s'\n", name->c_str());
-    interp_.reset(make(*canon_));
-    return interp_ != nullptr;
+    if (!interp_) rcs_print("emcTaskInit: using custom interpreter '%s'\n", name->c_str());
+    return std::unique_ptr<Interp>(make(canon));
+}
+
+InterpOptions Task::interp_options() const {
+    InterpOptions options;
+    options.ini_file = ini_file_;
+    options.task = true;
+    return options;
+}
+
+// What the canon asks of task.
+void Task::wire_canon() {
+    canon_->source_line = [this] { return interp_ ? interp_->line() : 0; };
+    canon_->user_code_exists = [this](int n) { return user_codes_.exists(n); };
+    canon_->user_code_command = [this](int n, double p, double q) { return user_codes_.command(n, p, q); };
+    canon_->hal_lookup = hal_number;
 }
 
 bool Task::start() {
@@ -114,6 +126,7 @@ bool Task::start() {
     if (auto t = ini_.findReal("CYCLE_TIME", "TASK")) cycle_time_ = *t;
     else rcs_print("[TASK] CYCLE_TIME not found in %s; using default %f\n", ini_file_.c_str(), cycle_time_);
     if (int n = ini_.findIntV("INTERP_MAX_LEN", "TASK", 1000); n > 0) interp_max_len_ = static_cast<size_t>(n);
+    run_from_line_restores_ = strcasecmp(ini_.findStringV("RUN_FROM_LINE", "TASK", "").c_str(), "restore") == 0;
     io_error_ = ini_.findStringV("IO_ERROR", "TASK", io_error_);
 
     stat_.task.mode = EMC_TASK_MODE_MANUAL;
@@ -159,13 +172,10 @@ bool Task::start() {
     canon_settings_.tool_change_position = io_.tool_change_position;
     canon_settings_.parameter_file = ini_.findStringV("PARAMETER_FILE", "RS274NGC", "");
     canon_ = std::make_unique<TaskCanon>(stat_, list_, motion_.limits, canon_settings_);
-    canon_->source_line = [this] { return interp_ ? interp_->line() : 0; };
-    canon_->user_code_exists = [this](int n) { return user_codes_.exists(n); };
-    canon_->user_code_command = [this](int n, double p, double q) { return user_codes_.command(n, p, q); };
-    canon_->hal_lookup = hal_number;
+    wire_canon();
     setenv("INI_FILE_NAME", ini_file_.c_str(), 1);
     update_motion();
-    if (!make_interpreter()) return false;
+    if (interp_ = make_interpreter(*canon_); !interp_) return false;
     interp_->set_loop_on_main_m99(true);
     if (int r = plan_init(); r != 0) {
         rcs_print_error("can't initialize interpreter\n");
@@ -239,6 +249,7 @@ void Task::cycle() {
     watch_errors();
     recover();
     watch_program_error();
+    send_messages();
     publish();
 }
 
@@ -270,6 +281,10 @@ void Task::watch_enable() {
 }
 
 void Task::watch_estop() {
+    if (chain_due_ != 0 && kerf_clock_now_ns() >= chain_due_) {
+        chain_due_ = 0;
+        if (stat_.io.aux.estop) operator_error("Emergency stop was reset but the chain is open: iocontrol.0.emc-enable-in is FALSE");
+    }
     if (!stat_.io.aux.estop) return;
     if (stat_.motion.traj.enabled) {
         motion_.disable();
@@ -291,6 +306,7 @@ void Task::watch_estop() {
 }
 
 void Task::watch_errors() {
+    for (const std::string &text : io_.news()) operator_error(text.c_str());
     bool io_failed = stat_.io.status == RCS_ERROR;
     if (io_failed && stat_.io.reason > 0) { // a soft fault: the program goes on
         if (!soft_fault_shown_) rcs_print("M6: toolchanger soft fault=%d, reason=%d\n", stat_.io.fault, stat_.io.reason);
@@ -373,11 +389,15 @@ void Task::publish() {
 
     bool busy = t.interpState != EMC_TASK_INTERP_IDLE;
     bool from_tag = busy && t.mode == EMC_TASK_MODE_AUTO && Interp::active_modes(t.activeGCodes, t.activeMCodes, t.activeSettings, traj.tag);
+    if (from_tag) running_tag_ = traj.tag; // motion drops it when it stops by itself
     if (!from_tag) {
         interp_->active_g_codes(t.activeGCodes);
         interp_->active_m_codes(t.activeMCodes);
         interp_->active_settings(t.activeSettings);
     }
+    // Group 6 of the codes: the units of what is executing, not of what was read.
+    if (t.activeGCodes[5] == 200) t.programUnits = CANON_UNITS_INCHES;
+    else if (t.activeGCodes[5] == 210) t.programUnits = CANON_UNITS_MM;
     if (busy && from_tag && traj.tag.filename[0]) copy_text(t.file, traj.tag.filename);
     else copy_text(t.file, program_.c_str());
 
@@ -388,7 +408,7 @@ void Task::publish() {
     int status;
     if (plan_error_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR || stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
         status = RCS_ERROR;
-    else if (idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() && !busy)
+    else if (idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() && !busy && restore_ != Restore::looking)
         status = RCS_DONE;
     else
         status = RCS_EXEC;
@@ -412,19 +432,32 @@ void Task::clear_program() {
 }
 
 void Task::abort_task() {
+    EMC_TASK_STAT &t = stat_.task;
+    const bool program = requested_mode_ == EMC_TASK_MODE_AUTO && t.interpState != EMC_TASK_INTERP_IDLE;
+    const state_tag_t tag = running_tag_;
     motion_.abort();
     clear_program();
-    EMC_TASK_STAT &t = stat_.task;
     t.task_paused = 0;
     t.motionLine = t.readLine = 0;
     t.command[0] = 0;
     t.callLevel = 0;
     stepping_ = step_given_ = false;
     start_line_ = 0;
+    line_read_ = false;
     error_stop_due_ = false;
+    forget_restore();
     synch_later();
     interp_->close();
     interp_->reset();
+    if (program) { // back from where reading was to what the machine does
+        canon_->spindle_is(-1, 0); // the S word of what is restored starts nothing
+        interp_->restore_offsets(executed_offsets_.values, t.toolOffset);
+        interp_->restore_from_tag(tag);
+        interp_->restore_offsets(executed_offsets_.values, t.toolOffset); // the tag may be of a move before the last change
+        read_offsets_ = executed_offsets_;
+    } else {
+        forget_offsets();
+    }
 }
 
 // When the machine has come to rest the interpreter learns where it is; nothing is read or
@@ -497,18 +530,25 @@ void Task::log_message(const NMLmsg &m, EmcMessageSource source) {
     log_channel_->write(log_);
 }
 
-// Into the log, which every client reads, and into the queue, whose messages go to one reader each.
-int Task::operator_message(NMLmsg &m, EmcMessageSource source) {
+// Into the log, which every client reads, and into the queue, whose messages go to one reader
+// each: at once, or when a reader has made room; task never waits for one.
+int Task::operator_message(const NMLmsg &m, EmcMessageSource source) {
     log_message(m, source);
-    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(MESSAGE_PATIENCE_S * 1e9);
-    while (error_channel_->get_space_available() < 2 * m.size) {
-        if (kerf_clock_now_ns() >= until) {
-            if (debug_ & EMC_DEBUG_TASK_ISSUE) rcs_print("operator message lost: nobody reads them\n");
-            return -1;
-        }
-        kerf_clock_sleep_ns(10 * MS);
+    if (messages_.size() >= MESSAGES_MOST) {
+        rcs_print("operator message lost: nobody reads them\n");
+        messages_.pop_front();
     }
-    return error_channel_->write(m);
+    messages_.emplace_back(m);
+    send_messages();
+    return 0;
+}
+
+void Task::send_messages() {
+    while (!messages_.empty()) {
+        NMLmsg &m = *messages_.front();
+        if (error_channel_->get_space_available() < 2 * m.size || error_channel_->write(m) < 0) return;
+        messages_.pop_front();
+    }
 }
 
 void Task::operator_error(const char *text) {

@@ -15,21 +15,15 @@
 #include <string>
 
 #include "accept.hh"
+#include "dry_run.hh"
 #include "ini_settings.hh"
 #include "interp.hh"
 #include "interp_list.hh"
 #include "io_control.hh"
 #include "motion_link.hh"
+#include "offsets_now.hh"
 #include "task_canon.hh"
 #include "user_codes.hh"
-
-// Order of the list: from here on these offsets (Interp::OFFSETS parameters) are in force.
-// It never leaves task.
-struct OffsetsNow : RCS_CMD_MSG {
-    static constexpr NMLTYPE NUMBER = 900001;
-    OffsetsNow() : RCS_CMD_MSG(NUMBER, sizeof(OffsetsNow)) {}
-    double values[Interp::OFFSETS];
-};
 
 class Task {
 public:
@@ -55,15 +49,20 @@ private:
     void watch_program_error();
     void publish();
     bool connect_channels();
-    bool make_interpreter();
+    std::unique_ptr<Interp> make_interpreter(TaskCanon &canon);
+    InterpOptions interp_options() const;
+    void wire_canon();
 
     // ---- plan ----
     int refuse(const NMLmsg &m, Situation s);
     int do_command(const NMLmsg &m); // immediate
     int set_mode(int mode);
+    bool hands_at_the_spindle();
+    void switched_by_hand(int spindle, int dir);
     int set_state(int state);
     int plan_open(const EMC_TASK_PLAN_OPEN &m);
     int plan_close();
+    bool may_run();
     int plan_run(int line);
     int plan_step();
     int plan_pause();
@@ -76,6 +75,15 @@ private:
     void mdi_cycle();
     int mdi_run(const char *text);
     int mdi_result(int r);
+    bool mdi_goes_on();
+    // ---- start at a line with all restored (task_restore.cc) ----
+    int plan_restore(int line);
+    int plan_restore_confirm(int line);
+    void look_ahead();
+    std::string restore_text() const;
+    void restore_step();
+    void forget_restore();
+
     void interp_failed(int code, bool executing);
     void wait_and_synch();
 
@@ -105,7 +113,8 @@ private:
     void synch_later();
 
     // ---- messages to the operator; printed too ----
-    int operator_message(NMLmsg &m, EmcMessageSource source = EMC_SOURCE_TASK);
+    int operator_message(const NMLmsg &m, EmcMessageSource source = EMC_SOURCE_TASK);
+    void send_messages();
     void log_message(const NMLmsg &m, EmcMessageSource source);
     void operator_error(const char *text);
     void operator_text(const char *text);
@@ -132,12 +141,14 @@ private:
     std::unique_ptr<NML> log_channel_; // null: the .nml file has none
     EMC_MESSAGE_LOG log_;
 
+    std::deque<AnyMessage> messages_; // to the operator, not yet sent
     AnyMessage command_;         // the last one read
     int command_serial_ = 0;
     bool plan_error_ = false, execute_error_ = false;
     InterpList::Entry pending_;  // taken from the list, not yet issued
     bool wait_ = false;          // a queue buster: no reading until all is done
     bool synching_ = false;
+    state_tag_t running_tag_{};  // of the last move of the program that was made
     OffsetsNow read_offsets_, executed_offsets_; // as read ahead, as in force
     void note_offsets();
     void forget_offsets();
@@ -146,6 +157,7 @@ private:
     int start_line_ = 0;
     bool stepping_ = false, step_given_ = false;
     int step_line_ = 0;
+    int64_t chain_due_ = 0;      // ns: when the emergency stop chain should be closed after a reset; 0 no matter
     bool was_on_ = false, was_enabled_ = false;
     bool eager_ = false;
     int64_t delay_until_ = 0;    // ns
@@ -157,6 +169,13 @@ private:
     std::string program_;        // opened last
     struct FileId { long long seconds = 0, nanoseconds = 0, size = -1; unsigned long long inode = 0; } program_id_; // its state then
     static FileId identity(const std::string &file);
+    // Start at a line: what was asked, and how things stood then.
+    enum class Restore { none, looking, shown, tool } restore_ = Restore::none;
+    std::unique_ptr<DryRun> dry_;
+    OffsetsNow looked_offsets_;
+    int looked_tool_ = 0;
+    bool line_read_ = false;         // the interpreter has read a line that is to be executed
+    bool run_from_line_restores_ = false;
     // MDI
     std::deque<std::string> mdi_queue_;
     bool mdi_continue_ = false;  // a called subroutine has more to do

@@ -26,17 +26,54 @@ double distance(double x, double y, double z) { return std::sqrt(x * x + y * y +
 } // namespace
 
 TaskCanon::TaskCanon(EMC_STAT &stat, InterpList &list, const AxisLimits &limits, const CanonSettings &settings)
-    : stat_(stat), list_(list), limits_(limits), settings_(settings) {}
+    : stat_(&stat), list_(&list), limits_(limits), settings_(settings) {}
 
 TaskCanon::~TaskCanon() {
     if (log_) fclose(log_);
     if (probe_log_) fclose(probe_log_);
 }
 
+void TaskCanon::take_state(const TaskCanon &other) {
+    g5x_ = other.g5x_;
+    g92_ = other.g92_;
+    tool_offset_ = other.tool_offset_;
+    end_ = other.end_;
+    rotation_ = other.rotation_;
+    g5x_index_ = other.g5x_index_;
+    units_ = other.units_;
+    plane_ = other.plane_;
+    motion_mode_ = other.motion_mode_;
+    motion_tolerance_ = other.motion_tolerance_;
+    naivecam_tolerance_ = other.naivecam_tolerance_;
+    linear_feed_ = other.linear_feed_;
+    angular_feed_ = other.angular_feed_;
+    feed_mode_ = other.feed_mode_;
+    feed_spindle_ = other.feed_spindle_;
+    sync_spindle_ = other.sync_spindle_;
+    rotary_unlocked_ = other.rotary_unlocked_;
+    spindle_ = other.spindle_;
+    optional_stop = other.optional_stop;
+    block_delete = other.block_delete;
+    offsets_applied = other.offsets_applied;
+    offsets = other.offsets;
+    user_code_exists = other.user_code_exists;
+    user_code_command = other.user_code_command;
+    hal_lookup = other.hal_lookup;
+    chain_.clear();
+    looking_ahead_ = true;
+}
+
+void TaskCanon::attach(EMC_STAT &stat, InterpList &list) {
+    stat.task.programUnits = stat_->task.programUnits;
+    stat_ = &stat;
+    list_ = &list;
+    looking_ahead_ = false;
+}
+
 // ---- units ----
 
-double TaskCanon::linear_scale() const { return stat_.motion.traj.linearUnits; }
-double TaskCanon::angular_scale() const { return stat_.motion.traj.angularUnits; }
+double TaskCanon::linear_scale() const { return stat_->motion.traj.linearUnits; }
+double TaskCanon::angular_scale() const { return stat_->motion.traj.angularUnits; }
 
 double TaskCanon::GET_EXTERNAL_LENGTH_UNITS() {
     if (linear_scale() == 0) {
@@ -118,7 +155,7 @@ std::array<double, 9> TaskCanon::deltas(const EmcPose &p, bool *cartesian, bool 
         // B and C take the threshold of lengths, as documented.
         double fuzz = TINY / (i == A ? (angular_scale() ? angular_scale() : 1) : (linear_scale() ? linear_scale() : 1));
         d[n] = std::fabs(to[n] - from[n]);
-        if (!(stat_.motion.traj.axis_mask & (1 << i)) || d[n] < fuzz) d[n] = 0;
+        if (!(stat_->motion.traj.axis_mask & (1 << i)) || d[n] < fuzz) d[n] = 0;
         if (d[n] > 0) *(rotary(i) ? angular : cartesian) = true;
     }
     return d;
@@ -239,6 +276,34 @@ void TaskCanon::STRAIGHT_TRAVERSE(int line, const EmcPose &end) {
     end_ = p;
 }
 
+void TaskCanon::machine_move(const EmcPose &machine, double feed) {
+    EmcPose p = machine_to_internal(machine);
+    Path v = straight_velocity(p), a = straight_acceleration(p), j = straight_jerk(p);
+    EMC_TRAJ_LINEAR_MOVE m;
+    m.type = feed > 0 ? EMC_MOTION_TYPE_FEED : EMC_MOTION_TYPE_TRAVERSE;
+    m.end = machine;
+    m.ini_maxvel = path_to_machine(v, v.value);
+    m.vel = feed > 0 ? std::min(feed, m.ini_maxvel) : m.ini_maxvel;
+    m.acc = path_to_machine(a, a.value);
+    m.ini_maxjerk = path_to_machine(j, j.value);
+    m.indexer_jnum = -1;
+    m.tag = tag_;
+    if (m.vel != 0 && m.acc != 0) emit(m);
+    end_ = p;
+}
+
+void TaskCanon::approach_above(const EmcPose &from, const EmcPose &end, double z) {
+    end_ = machine_to_internal(from);
+    EmcPose p = from;
+    p.tran.z = z;
+    machine_move(p, 0);
+    p = end;
+    p.tran.z = z;
+    machine_move(p, 0);
+}
+
+void TaskCanon::approach_down(const EmcPose &end, double feed) { machine_move(end, feed); }
+
 int TaskCanon::UNLOCK_ROTARY(int line, int joint) {
     EMC_TRAJ_LINEAR_MOVE m; // a move of no length that stops blending before the unlock
     m.type = EMC_MOTION_TYPE_TRAVERSE;
@@ -312,7 +377,7 @@ void TaskCanon::INIT_CANON() {
         units_ = CANON_UNITS_MM;
         if (std::fabs(u - 1) >= 1e-3) CANON_ERROR("non-standard length units, setting interpreter to mm");
     }
-    stat_.task.programUnits = units_;
+    stat_->task.programUnits = units_;
     SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, units_ == CANON_UNITS_INCHES ? 0.001 : 0.0254, -1, -1);
     naivecam_tolerance_ = 0;
 }
@@ -364,7 +429,7 @@ void TaskCanon::USE_TOOL_LENGTH_OFFSET(const EmcPose &offset) {
 
 void TaskCanon::USE_LENGTH_UNITS(CANON_UNITS units) {
     units_ = units;
-    stat_.task.programUnits = units;
+    stat_->task.programUnits = units;
 }
 
 void TaskCanon::CANON_UPDATE_END_POINT(const EmcPose &position) { end_ = from_program(position); }
@@ -568,6 +633,7 @@ void TaskCanon::RELOAD_TOOLDATA() { emit(EMC_TOOL_LOAD_TOOL_TABLE()); }
 // ---- text ----
 
 void TaskCanon::COMMENT(const char *text) {
+    if (looking_ahead_) return;
     std::string s = text;
     if (s.compare(0, 9, "PROBEOPEN") == 0) {
         size_t at = s.find_first_not_of(" \t", 9);
@@ -605,6 +671,7 @@ void TaskCanon::CANON_ERROR(const char *text) {
 }
 
 void TaskCanon::open_log(const char *name, const char *mode, const char *what) {
+    if (looking_ahead_) return;
     if (log_) fclose(log_);
     log_ = fopen(name, mode);
     fprintf(stderr, "%s(%s) -> %p\n", what, name, static_cast<void *>(log_));
@@ -612,6 +679,7 @@ void TaskCanon::open_log(const char *name, const char *mode, const char *what) {
 
 void TaskCanon::LOG(const char *text) {
     flush();
+    if (looking_ahead_) return;
     if (log_) {
         fprintf(log_, "%s\n", text);
         fflush(log_);
@@ -620,6 +688,7 @@ void TaskCanon::LOG(const char *text) {
 }
 
 void TaskCanon::LOGCLOSE() {
+    if (looking_ahead_) return;
     if (log_) fclose(log_);
     log_ = nullptr;
     fprintf(stderr, "LOGCLOSE()\n");
@@ -699,12 +768,12 @@ double TaskCanon::GET_EXTERNAL_FEED_RATE() { return feed_mode_ == 1 ? linear_fee
 
 double TaskCanon::GET_EXTERNAL_TRAVERSE_RATE() {
     double u = linear_scale();
-    return to_program_length(stat_.motion.traj.maxVelocity / (u ? u : 1)) * 60;
+    return to_program_length(stat_->motion.traj.maxVelocity / (u ? u : 1)) * 60;
 }
 
 EmcPose TaskCanon::GET_EXTERNAL_POSITION() {
     chain_.clear();
-    EmcPose p = stat_.motion.traj.position;
+    EmcPose p = stat_->motion.traj.position;
     if (offsets_applied) add(&p, offsets, -1);
     end_ = machine_to_internal(p);
     return to_frame(end_);
@@ -712,7 +781,7 @@ EmcPose TaskCanon::GET_EXTERNAL_POSITION() {
 
 EmcPose TaskCanon::GET_EXTERNAL_PROBE_POSITION() {
     flush();
-    EmcPose p = to_frame(machine_to_internal(stat_.motion.traj.probedPosition));
+    EmcPose p = to_frame(machine_to_internal(stat_->motion.traj.probedPosition));
     if (probe_log_) {
         std::array<double, 9> now = as_array(p);
         if (now != as_array(last_probed_)) {
@@ -726,31 +795,35 @@ EmcPose TaskCanon::GET_EXTERNAL_PROBE_POSITION() {
 
 bool TaskCanon::GET_EXTERNAL_QUEUE_EMPTY() {
     flush();
-    return stat_.motion.traj.queue == 0;
+    return stat_->motion.traj.queue == 0;
 }
 
 CANON_DIRECTION TaskCanon::GET_EXTERNAL_SPINDLE(int spindle) {
-    if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || stat_.motion.spindle[spindle].speed == 0) return CANON_STOPPED;
-    return stat_.motion.spindle[spindle].speed > 0 ? CANON_CLOCKWISE : CANON_COUNTERCLOCKWISE;
+    if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || stat_->motion.spindle[spindle].speed == 0) return CANON_STOPPED;
+    return stat_->motion.spindle[spindle].speed > 0 ? CANON_CLOCKWISE : CANON_COUNTERCLOCKWISE;
 }
 
 int TaskCanon::GET_EXTERNAL_TOOL_SLOT() {
-    int idx = tooldata_find_index_for_tool(stat_.io.tool.toolInSpindle);
+    int idx = tooldata_find_index_for_tool(stat_->io.tool.toolInSpindle);
     return idx < 0 ? 0 : idx;
 }
 
 CANON_TOOL_TABLE TaskCanon::GET_EXTERNAL_TOOL_TABLE(int idx) {
     CANON_TOOL_TABLE rec = tooldata_entry_init();
+    if (looking_ahead_ && idx == 0) {
+        idx = tooldata_find_index_for_tool(stat_->io.tool.toolInSpindle);
+        if (idx == 0 && !tool_mmap_is_random_toolchanger()) return rec; // no tool
+    }
     if (idx >= 0 && idx < CANON_POCKETS_MAX && tooldata_get(&rec, idx) != IDX_OK) rec = tooldata_entry_init();
     return rec;
 }
 
 int TaskCanon::GET_EXTERNAL_DIGITAL_INPUT(int index, int) {
-    if (index < 0 || index >= EMCMOT_MAX_DIO || stat_.task.input_timeout) return -1;
-    return stat_.motion.synch_di[index] != 0;
+    if (index < 0 || index >= EMCMOT_MAX_DIO || stat_->task.input_timeout) return -1;
+    return stat_->motion.synch_di[index] != 0;
 }
 
 double TaskCanon::GET_EXTERNAL_ANALOG_INPUT(int index, double) {
     if (index < 0 || index >= EMCMOT_MAX_AIO) return -1;
-    return stat_.motion.analog_input[index];
+    return stat_->motion.analog_input[index];
 }

@@ -44,6 +44,16 @@ public:
     std::function<int()> source_line; // line for messages that carry none of their own
 
     bool optional_stop = true, block_delete = true;
+    // For looking ahead in a program: as `other` stands, without its files. The tool in the
+    // spindle is then the one of the status, not what the changer holds.
+    void take_state(const TaskCanon &other);
+    // From now on for the machine itself.
+    void attach(EMC_STAT &stat, InterpList &list);
+    // Moves in machine coordinates from where the machine is: up, across, and (feed in machine
+    // units a second, 0 rapid) down to `end`.
+    void approach_above(const EmcPose &from, const EmcPose &end, double z);
+    void approach_down(const EmcPose &end, double feed);
+
     bool chain_pending() const { return !chain_.empty(); }
     size_t emitted() const { return emitted_; }
 
@@ -134,8 +144,8 @@ public:
 
     double GET_EXTERNAL_FEED_RATE() override;
     double GET_EXTERNAL_TRAVERSE_RATE() override;
-    bool GET_EXTERNAL_FLOOD() override { return stat_.io.coolant.flood != 0; }
-    bool GET_EXTERNAL_MIST() override { return stat_.io.coolant.mist != 0; }
+    bool GET_EXTERNAL_FLOOD() override { return stat_->io.coolant.flood != 0; }
+    bool GET_EXTERNAL_MIST() override { return stat_->io.coolant.mist != 0; }
     CANON_UNITS GET_EXTERNAL_LENGTH_UNIT_TYPE() override { return units_; }
     double GET_EXTERNAL_LENGTH_UNITS() override;
     double GET_EXTERNAL_ANGLE_UNITS() override;
@@ -146,25 +156,25 @@ public:
     CANON_PLANE GET_EXTERNAL_PLANE() override { return plane_; }
     EmcPose GET_EXTERNAL_POSITION() override;
     EmcPose GET_EXTERNAL_PROBE_POSITION() override;
-    int GET_EXTERNAL_PROBE_TRIPPED_VALUE() override { return stat_.motion.traj.probe_tripped; }
+    int GET_EXTERNAL_PROBE_TRIPPED_VALUE() override { return stat_->motion.traj.probe_tripped; }
     bool GET_EXTERNAL_QUEUE_EMPTY() override;
     double GET_EXTERNAL_SPEED(int spindle) override { return spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES ? spindle_[spindle].speed : 0; }
     CANON_DIRECTION GET_EXTERNAL_SPINDLE(int spindle) override;
     EmcPose GET_EXTERNAL_TOOL_LENGTH_OFFSET() override { return to_program(tool_offset_); }
     int GET_EXTERNAL_TOOL_SLOT() override;
-    int GET_EXTERNAL_SELECTED_TOOL_SLOT() override { return stat_.io.tool.pocketPrepped; }
+    int GET_EXTERNAL_SELECTED_TOOL_SLOT() override { return stat_->io.tool.pocketPrepped; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override;
-    int GET_EXTERNAL_TC_FAULT() override { return stat_.io.fault; }
-    int GET_EXTERNAL_TC_REASON() override { return stat_.io.reason; }
-    bool GET_EXTERNAL_FEED_OVERRIDE_ENABLE() override { return stat_.motion.traj.feed_override_enabled; }
+    int GET_EXTERNAL_TC_FAULT() override { return stat_->io.fault; }
+    int GET_EXTERNAL_TC_REASON() override { return stat_->io.reason; }
+    bool GET_EXTERNAL_FEED_OVERRIDE_ENABLE() override { return stat_->motion.traj.feed_override_enabled; }
     bool GET_EXTERNAL_SPINDLE_OVERRIDE_ENABLE(int spindle) override {
-        return spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES && stat_.motion.spindle[spindle].spindle_override_enabled;
+        return spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES && stat_->motion.spindle[spindle].spindle_override_enabled;
     }
-    bool GET_EXTERNAL_ADAPTIVE_FEED_ENABLE() override { return stat_.motion.traj.adaptive_feed_enabled; }
-    bool GET_EXTERNAL_FEED_HOLD_ENABLE() override { return stat_.motion.traj.feed_hold_enabled; }
+    bool GET_EXTERNAL_ADAPTIVE_FEED_ENABLE() override { return stat_->motion.traj.adaptive_feed_enabled; }
+    bool GET_EXTERNAL_FEED_HOLD_ENABLE() override { return stat_->motion.traj.feed_hold_enabled; }
     int GET_EXTERNAL_DIGITAL_INPUT(int index, int dflt) override;
     double GET_EXTERNAL_ANALOG_INPUT(int index, double dflt) override;
-    int GET_EXTERNAL_AXIS_MASK() override { return stat_.motion.traj.axis_mask; }
+    int GET_EXTERNAL_AXIS_MASK() override { return stat_->motion.traj.axis_mask; }
     bool GET_EXTERNAL_OFFSET_APPLIED() override { return offsets_applied; }
     EmcPose GET_EXTERNAL_OFFSETS() override { return machine_to_internal(offsets); }
     bool hal_value(const char *name, double *value) override { return hal_lookup && hal_lookup(name, value); }
@@ -210,11 +220,12 @@ private:
 
     // Emission
     template <class T> void emit(const T &m) { emit_at(m, source_line ? source_line() : 0); }
-    template <class T> void emit_at(const T &m, int line) { list_.append(m, line); emitted_++; }
+    template <class T> void emit_at(const T &m, int line) { list_->append(m, line); emitted_++; }
     template <class T> void plain() { flush(); T m; emit(m); }
     void flush();
     bool linkable(const EmcPose &p) const;
     void chain(int line, const EmcPose &p);
+    void machine_move(const EmcPose &machine, double feed);
     void straight_segment(int line, const EmcPose &p, const state_tag_t &tag);
     void arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation, double axis_end, const EmcPose &end);
     void sync_off_for_move();
@@ -237,8 +248,8 @@ private:
     void tangent_arc(int line, P2 from, P2 tangent, P2 to);
     P2 plane_position() const;
 
-    EMC_STAT &stat_;
-    InterpList &list_;
+    EMC_STAT *stat_;
+    InterpList *list_;
     const AxisLimits &limits_;
     const CanonSettings &settings_;
     EmcPose g5x_{}, g92_{}, tool_offset_{}; // internal units
@@ -258,6 +269,7 @@ private:
     FILE *log_ = nullptr, *probe_log_ = nullptr;
     EmcPose last_probed_{};
     size_t emitted_ = 0;
+    bool looking_ahead_ = false; // nothing is done: no files, tools as the status says
 };
 
 #endif

@@ -94,7 +94,7 @@ void TaskCanon::arc(int line, double first_end, double second_end, double first_
     double r_eff = std::sqrt(dr * dr + r_min * r_min);
     auto plane_limit = [&](const std::array<double, 9> &limit) {
         double m = std::min(axis_limit(limit, i1), axis_limit(limit, i2));
-        if (rotation_ != 0 && plane_ != CANON_PLANE_XY && (stat_.motion.traj.axis_mask & (1 << i3))) m = std::min(m, axis_limit(limit, i3));
+        if (rotation_ != 0 && plane_ != CANON_PLANE_XY && (stat_->motion.traj.axis_mask & (1 << i3))) m = std::min(m, axis_limit(limit, i3));
         return m;
     };
     double v_axes = plane_limit(limits_.velocity), a_axes = plane_limit(limits_.acceleration), j_axes = plane_limit(limits_.jerk);

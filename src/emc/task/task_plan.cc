@@ -14,6 +14,10 @@
 #include "task.hh"
 #include "task_text.hh"
 
+namespace {
+constexpr int64_t CHAIN_PATIENCE_NS = 500'000'000; // for relays of an emergency stop chain to close
+}
+
 void Task::plan() {
     EMC_TASK_STAT &t = stat_.task;
     if (wait_ && idle()) wait_ = false;
@@ -45,7 +49,11 @@ void Task::plan() {
         if (r != 0) plan_error_ = true;
     }
     switch (s) {
-    case Situation::auto_reading: if (!took) read_ahead(); break;
+    case Situation::auto_idle: if (restore_ == Restore::looking) look_ahead(); break;
+    case Situation::auto_reading:
+        if (restore_ == Restore::tool) restore_step();
+        else if (!took) read_ahead();
+        break;
     case Situation::auto_waiting: if (!took) finish_program(); break;
     case Situation::mdi: mdi_cycle(); break;
     default: break;
@@ -84,18 +92,8 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_TASK_SET_STATE_TYPE: return set_state(as<EMC_TASK_SET_STATE>(m).state);
     case EMC_TASK_ABORT_TYPE:
         {
-            bool program = stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE;
-            state_tag_t tag = stat_.motion.traj.tag;
-            EmcPose tool = stat_.task.toolOffset;
             abort_task();
             motion_.traj_abort();
-            canon_->spindle_is(-1, 0); // the S word of what is restored starts nothing
-            if (program) {
-                interp_->restore_offsets(executed_offsets_.values, tool);
-                interp_->restore_from_tag(tag);
-                interp_->restore_offsets(executed_offsets_.values, tool);
-                read_offsets_ = executed_offsets_;
-            }
             io_.abort(EMC_ABORT_TASK_ABORT);
             all_spindles_off();
             abort_mdi();
@@ -104,7 +102,11 @@ int Task::do_command(const NMLmsg &m) {
         return 0;
     case EMC_TASK_PLAN_OPEN_TYPE: return plan_open(as<EMC_TASK_PLAN_OPEN>(m));
     case EMC_TASK_PLAN_CLOSE_TYPE: return plan_close();
-    case EMC_TASK_PLAN_RUN_TYPE: return plan_run(as<EMC_TASK_PLAN_RUN>(m).line);
+    case EMC_TASK_PLAN_RUN_TYPE:
+        if (const int line = as<EMC_TASK_PLAN_RUN>(m).line; run_from_line_restores_ && line > 0) return plan_restore(line);
+        else return plan_run(line);
+    case EMC_TASK_PLAN_RESTORE_TYPE: return plan_restore(as<EMC_TASK_PLAN_RESTORE>(m).line);
+    case EMC_TASK_PLAN_RESTORE_CONFIRM_TYPE: return plan_restore_confirm(as<EMC_TASK_PLAN_RESTORE_CONFIRM>(m).line);
     case EMC_TASK_PLAN_STEP_TYPE: return plan_step();
     case EMC_TASK_PLAN_RESUME_TYPE: return plan_resume();
     case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
@@ -160,18 +162,47 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_TRAJ_PAUSE_TYPE: stat_.task.task_paused = 1; return motion_.send(EMCMOT_PAUSE);
     case EMC_TRAJ_RESUME_TYPE: stat_.task.task_paused = 0; return motion_.send(EMCMOT_RESUME);
     case EMC_TRAJ_ABORT_TYPE: return motion_.traj_abort();
-    case EMC_SPINDLE_INCREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_INCREASE, as<EMC_SPINDLE_INCREASE>(m).spindle);
+    case EMC_SPINDLE_INCREASE_TYPE:
+        if (hands_at_the_spindle()) return -1;
+        return motion_.spindle_command(EMCMOT_SPINDLE_INCREASE, as<EMC_SPINDLE_INCREASE>(m).spindle);
     case EMC_SPINDLE_DECREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_DECREASE, as<EMC_SPINDLE_DECREASE>(m).spindle);
     case EMC_SPINDLE_CONSTANT_TYPE: return 0;
     case EMC_SPINDLE_ON_TYPE:
-        canon_->spindle_is(as<EMC_SPINDLE_ON>(m).spindle, as<EMC_SPINDLE_ON>(m).speed > 0 ? 1 : as<EMC_SPINDLE_ON>(m).speed < 0 ? -1 : 0);
+        if (hands_at_the_spindle()) return -1;
+        {
+            const EMC_SPINDLE_ON &on = as<EMC_SPINDLE_ON>(m);
+            switched_by_hand(on.spindle, on.speed > 0 ? 1 : on.speed < 0 ? -1 : 0);
+        }
         return issue(m);
     case EMC_SPINDLE_OFF_TYPE:
-        canon_->spindle_is(as<EMC_SPINDLE_OFF>(m).spindle, 0);
+        switched_by_hand(as<EMC_SPINDLE_OFF>(m).spindle, 0);
         return issue(m);
+    case EMC_COOLANT_MIST_ON_TYPE:
+    case EMC_COOLANT_MIST_OFF_TYPE:
+    case EMC_COOLANT_FLOOD_ON_TYPE:
+    case EMC_COOLANT_FLOOD_OFF_TYPE:
+        {
+            const int r = issue(m);
+            if (stat_.task.interpState == EMC_TASK_INTERP_IDLE) interp_->coolant_switched(stat_.io.coolant.mist, stat_.io.coolant.flood);
+            return r;
+        }
     case EMC_NULL_TYPE: return 0;
     default: return issue(m);
     }
+}
+
+// Until a tool change is confirmed nobody starts a spindle. True with a message.
+bool Task::hands_at_the_spindle() {
+    if (!io_.changing()) return false;
+    operator_error("No spindle starts while a tool change waits for its confirmation (iocontrol.0.tool-changed)");
+    return true;
+}
+
+// What a program does next, and what it saves and restores, follows the operator's hand.
+void Task::switched_by_hand(int spindle, int dir) {
+    canon_->spindle_is(spindle, dir);
+    if (stat_.task.interpState != EMC_TASK_INTERP_IDLE) return; // a program that is read ahead has its own state
+    interp_->spindle_switched(spindle, dir > 0 ? CANON_CLOCKWISE : dir < 0 ? CANON_COUNTERCLOCKWISE : CANON_STOPPED);
 }
 
 int Task::set_mode(int mode) {
@@ -209,6 +240,7 @@ int Task::set_state(int state) {
     case EMC_TASK_STATE_ON:
         {
             int r = motion_.enable();
+            if (stat_.io.aux.estop) operator_error("The machine stays off: the emergency stop chain is open (iocontrol.0.emc-enable-in)");
             io_.flood(false);
             return r;
         }
@@ -226,6 +258,7 @@ int Task::set_state(int state) {
         return 0;
     case EMC_TASK_STATE_ESTOP_RESET:
         io_.estop_off();
+        chain_due_ = kerf_clock_now_ns() + CHAIN_PATIENCE_NS;
         io_.flood(false);
         abort_task();
         abort_mdi();
@@ -235,6 +268,7 @@ int Task::set_state(int state) {
         synch();
         return 0;
     case EMC_TASK_STATE_ESTOP:
+        chain_due_ = 0;
         motion_.traj_abort();
         all_spindles_off();
         io_.estop_on();
@@ -283,6 +317,7 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
         name = upload_name_;
     }
     EMC_TASK_STAT &t = stat_.task;
+    forget_restore();
     t.motionLine = t.currentLine = t.readLine = 0;
     stat_.error_line = stat_.error_column = 0;
     stat_.error_file[0] = stat_.error_fix[0] = 0;
@@ -321,11 +356,8 @@ int Task::plan_close() {
 }
 
 int Task::plan_init() {
-    InterpOptions options;
-    options.ini_file = ini_file_;
-    options.task = true;
     interp_->set_mdi_slice(0);
-    int r = interp_->init(options);
+    int r = interp_->init(interp_options());
     if (r > INTERP_MIN_ERROR) {
         operator_error(interp_->error_text(r));
         return r;
@@ -342,23 +374,31 @@ int Task::plan_init() {
     return 0;
 }
 
-int Task::plan_run(int line) {
-    EMC_TASK_STAT &t = stat_.task;
+// Homed, and the program is the one that was opened; false with a message.
+bool Task::may_run() {
     if (!all_homed() && !settings_.no_force_homing) {
         operator_error("Can't run a program when not homed");
-        return -1;
+        return false;
     }
     if (program_.empty()) {
         operator_error("No program is open");
-        return -1;
+        return false;
     }
     FileId now = identity(program_);
     if (now.size != program_id_.size || now.seconds != program_id_.seconds || now.nanoseconds != program_id_.nanoseconds || now.inode != program_id_.inode) {
         operator_error((program_ + " was changed after it was opened: open it again to run what it says now").c_str());
-        return -1;
+        return false;
     }
+    return true;
+}
+
+int Task::plan_run(int line) {
+    EMC_TASK_STAT &t = stat_.task;
+    if (!may_run()) return -1;
+    forget_restore();
     stop_stepping();
     error_stop_due_ = false;
+    t.interpreter_errcode = 0;
     if (!interp_->file_open()) {
         int r = interp_->open(program_.c_str());
         if (r != INTERP_OK) {
@@ -370,6 +410,7 @@ int Task::plan_run(int line) {
         }
     }
     start_line_ = line;
+    running_tag_ = {};
     t.interpState = EMC_TASK_INTERP_READING;
     t.task_paused = 0;
     return 0;
@@ -442,12 +483,23 @@ bool Task::skip_line() {
         return false;
     }
     list_.drop_unless([](const InterpList::Entry &e) {
-        return e.message.type() == EMC_OPERATOR_ERROR_TYPE || e.message.type() == EMC_TASK_PLAN_SYNCH_TYPE;
+        switch (e.message.type()) {
+        case EMC_OPERATOR_ERROR_TYPE:
+        case EMC_TASK_PLAN_SYNCH_TYPE:
+        // What the interpreter has in force is so for the display and for motion too.
+        case EMC_TRAJ_SET_G5X_TYPE:
+        case EMC_TRAJ_SET_G92_TYPE:
+        case EMC_TRAJ_SET_ROTATION_TYPE:
+        case EMC_TRAJ_SET_OFFSET_TYPE:
+        case EMC_TRAJ_SET_TERM_COND_TYPE:
+        case OffsetsNow::NUMBER: return true;
+        default: return false;
+        }
     });
     EmcPose here = stat_.motion.traj.position;
     double lin = stat_.motion.traj.linearUnits, ang = stat_.motion.traj.angularUnits, f = 1;
-    if (stat_.task.programUnits == CANON_UNITS_INCHES) f = 25.4;
-    if (stat_.task.programUnits == CANON_UNITS_CM) f = 10;
+    if (canon_->GET_EXTERNAL_LENGTH_UNIT_TYPE() == CANON_UNITS_INCHES) f = 25.4;
+    if (canon_->GET_EXTERNAL_LENGTH_UNIT_TYPE() == CANON_UNITS_CM) f = 10;
     for (double *p : {&here.tran.x, &here.tran.y, &here.tran.z, &here.u, &here.v, &here.w}) *p /= lin * f;
     for (double *p : {&here.a, &here.b, &here.c}) *p /= ang;
     canon_->ON_RESET();
@@ -463,7 +515,8 @@ void Task::read_ahead() {
     EMC_TASK_STAT &t = stat_.task;
     for (size_t lines = 0; lines < interp_max_len_; lines++) {
         if (wait_ || list_.size() > interp_max_len_ || (lines > 0 && list_.size() > interp_max_len_ * 2 / 3)) return;
-        int r = interp_->read();
+        int r = line_read_ ? INTERP_OK : interp_->read();
+        line_read_ = false;
         t.readLine = interp_->line();
         copy_text(t.command, interp_->command());
         list_.set_level(interp_->call_level());
@@ -534,6 +587,7 @@ int Task::mdi_run(const char *text) {
     EMC_TASK_STAT &t = stat_.task;
     copy_text(t.command, text);
     t.interpState = EMC_TASK_INTERP_READING;
+    t.interpreter_errcode = 0;
     mdi_active_ = true;
     stat_.error_line = stat_.error_column = 0;
     stat_.error_file[0] = stat_.error_fix[0] = 0;
@@ -578,14 +632,17 @@ int Task::mdi_result(int r) {
     return -1; // M2 by MDI: done, and reported as failed, as documented
 }
 
+// A called subroutine goes on. False when there is none.
+bool Task::mdi_goes_on() {
+    if (!mdi_continue_) return false;
+    const bool ready = mdi_sliced_ ? list_.size() <= interp_max_len_ : idle();
+    if (ready && mdi_result(interp_->execute(nullptr)) != 0) execute_error_ = true;
+    return true;
+}
+
 void Task::mdi_cycle() {
     EMC_TASK_STAT &t = stat_.task;
-    if (wait_) return;
-    if (mdi_continue_) {
-        const bool ready = mdi_sliced_ ? list_.size() <= interp_max_len_ : idle();
-        if (ready && mdi_result(interp_->execute(nullptr)) != 0) execute_error_ = true;
-        return;
-    }
+    if (wait_ || mdi_goes_on()) return;
     if (!mdi_queue_.empty()) {
         std::string next = mdi_queue_.front();
         mdi_queue_.pop_front();

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Tool data: the shared store, the tool table file, the database program.
 PUBLIC_HEADERS += src/emc/tool/tooldata.h
-TOOLDATA_SOURCES := $(addprefix src/emc/tool/,toolstore.cc toolfile.cc tooldb.cc)
+TOOLDATA_SOURCES := $(addprefix src/emc/tool/,toolstore.cc toolfile.cc tooltext.cc tooldb.cc)
 $(eval $(call library,tooldata,0,$(TOOLDATA_SOURCES),))
+$(eval $(call program,tool_mmap_read,src/emc/tool/tool_mmap_read.cc,tooldata,))

@@ -71,12 +71,16 @@ int tooldata_read_entry(const char *line);
  * comment lines, blank lines and lines that were not understood keep their places. */
 int tooldata_load(const char *filename);
 int tooldata_save(const char *filename);
+/* What the last load or save met, one "FILE:LINE:COLUMN: TEXT" a line; "" when all was well.
+ * Valid until the next load or save. Printed on standard error too. */
+const char *tooldata_problems(void);
 
 /* The database program ([EMCIO]DB_PROGRAM). */
 void tooldata_set_db(tooldb_t mode);
 int tooldata_db_init(const char *program_with_args, int random_toolchanger);
 int tooldata_db_notify(tool_notify_t type, int toolno, int pocketno, CANON_TOOL_TABLE rec);
 int tooldata_db_getall(void);
+int tooldata_db_active(void); /* 0: none, or it died */
 
 #ifdef __cplusplus
 }

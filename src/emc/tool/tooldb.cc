@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "tooldata.h"
+#include "tooltext.hh"
 
 namespace
 {
@@ -89,19 +90,17 @@ bool receive_line(std::string *line)
 
 } // namespace
 
-bool tooldb_active() { return db.mode == DB_ACTIVE; }
+int tooldata_db_active(void) { return db.mode == DB_ACTIVE; }
+const char *tooldb_program() { return db.program.c_str(); }
 
 int tooldb_save_spindle()
 {
     if (!db.random) return 0;
     CANON_TOOL_TABLE t;
     if (tooldata_get(&t, 0) != IDX_OK) return -1;
-    FILE *f = fopen("./db_spindle.tbl", "we");
-    if (!f) return -1;
-    char line[CANON_TOOL_ENTRY_LEN + 8];
+    char line[CANON_TOOL_ENTRY_LEN];
     tooldata_format_toolline(0, 1, t, line);
-    fputs(line, f);
-    return fclose(f) == 0 ? 0 : -1;
+    return tooltext::replace_file("./db_spindle.tbl", line, false) ? 0 : -1;
 }
 
 void tooldata_set_db(tooldb_t mode)
@@ -201,7 +200,7 @@ int tooldata_db_notify(tool_notify_t type, int toolno, int pocketno, CANON_TOOL_
     if (db.mode != DB_ACTIVE) return 0;
     std::string line;
     if (type == TOOL_OFFSET) {
-        char text[CANON_TOOL_ENTRY_LEN + 8];
+        char text[CANON_TOOL_ENTRY_LEN];
         tooldata_format_toolline(pocketno, 0, rec, text);
         line = std::string("p ") + text;
     } else {

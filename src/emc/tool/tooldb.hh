@@ -5,7 +5,8 @@
 #ifndef KERF_TOOLDB_HH
 #define KERF_TOOLDB_HH
 
-bool tooldb_active();
+/// Its path, for messages.
+const char *tooldb_program();
 /// Random changers: writes ./db_spindle.tbl. 0 or -1.
 int tooldb_save_spindle();
 

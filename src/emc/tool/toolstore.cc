@@ -2,12 +2,13 @@
  *
  * toolstore.cc - the tool records in a memory map that processes share.
  *
- * Thread: [task]; the lock in the header is waited for at most 10 s, then taken over
+ * Thread: [task]; the lock in the header is waited for at most 10 s, then taken over; from a dead process at once
  * Source: tools sheet, section 3
  */
 #include "tooldata.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -47,13 +48,19 @@ std::string map_name()
     return path;
 }
 
+bool gone(unsigned long owner)
+{
+    return owner > 1 && kill(pid_t(owner), 0) != 0 && errno == ESRCH;
+}
+
+// The mutex holds the process id of its owner. One that died gives it up at once.
 bool lock()
 {
-    unsigned long expected = 0;
+    const unsigned long me = static_cast<unsigned long>(getpid());
     for (int tries = 0; tries < 10000; ++tries) {
-        expected = 0;
-        if (__atomic_compare_exchange_n(&store.map->mutex, &expected, 1ul, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED))
-            return true;
+        unsigned long owner = 0;
+        if (__atomic_compare_exchange_n(&store.map->mutex, &owner, me, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED)) return true;
+        if (gone(owner) && __atomic_compare_exchange_n(&store.map->mutex, &owner, me, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED)) return true;
         const struct timespec pause = {0, 1000000}; // wall clock: another process holds the lock
         nanosleep(&pause, nullptr);
     }

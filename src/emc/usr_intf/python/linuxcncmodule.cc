@@ -290,6 +290,18 @@ void automatic(Command &c, const py::args &a) {
     }
 }
 
+void restore(Command &c, int line) {
+    EMC_TASK_PLAN_RESTORE m;
+    m.line = line;
+    c.give(m);
+}
+
+void restore_confirm(Command &c, int line) {
+    EMC_TASK_PLAN_RESTORE_CONFIRM m;
+    m.line = line;
+    c.give(m);
+}
+
 void set_spindle(Command &c, const py::args &a) {
     if (a.size() < 1 || a.size() > 4) throw py::type_error("function takes at least 1 and at most 4 arguments (" + std::to_string(a.size()) + " given)");
     int dir = a[0].cast<int>();
@@ -391,6 +403,8 @@ void define_command(py::module_ &m) {
     cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<Command>(); }));
     cls.def_property_readonly("serial", [](const Command &c) { return c.client.serial(); }, "serial number of the last command");
     cls.def("abort", [](Command &c) { c.plain<EMC_TASK_ABORT>(); }, "Stops everything");
+    cls.def("restore", &restore, py::arg("line"), "restore(line): shows what a start at that line would restore first (stat.restore_text); nothing moves");
+    cls.def("restore_confirm", &restore_confirm, py::arg("line"), "restore_confirm(line): restores what was shown for that line, then runs from there");
     cls.def("auto", checked(automatic), "auto(AUTO_RUN, line) or auto(AUTO_PAUSE | AUTO_RESUME | AUTO_STEP | AUTO_REVERSE | AUTO_FORWARD)");
     cls.def("brake", [](Command &c, int state, int spindle) {
             if (state == 1) { EMC_SPINDLE_BRAKE_ENGAGE b; b.spindle = spindle; c.give(b); }

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * tooltext.hh - what reading and saving the tool table share: words of a line, problems,
+ * files that are replaced whole. [task]
+ */
+#ifndef KERF_TOOLTEXT_HH
+#define KERF_TOOLTEXT_HH
+
+#include <string>
+#include <vector>
+
+#include "tooldata.h"
+
+namespace tooltext
+{
+
+/// Letters of the real values, in the order of a saved line.
+extern const char FIELDS[];
+/// The value behind a letter of FIELDS, nullptr for any other.
+double *field_of(CANON_TOOL_TABLE &t, char letter);
+
+struct Word {
+    char letter;      ///< upper case
+    std::string text; ///< as written, with the letter
+    int column;       ///< of the letter, from 1
+};
+
+struct Line {
+    std::vector<Word> words;   ///< before the comment; separated by blanks or tabs
+    bool has_comment = false;
+    std::string comment;       ///< behind the first semicolon, without the end of the line
+    bool blank() const { return words.empty(); } ///< no tool on it
+};
+Line split(const std::string &line);
+
+/// One word into the record; P counts too. False: unknown letter, or no number behind it.
+bool take(const Word &word, CANON_TOOL_TABLE &t);
+
+/// The lines of a file without their ends. False: it can not be opened (errno).
+bool read_lines(const char *filename, std::vector<std::string> *lines);
+
+/// Writes a new file beside the old one, syncs it and puts it in place: after a power cut
+/// there is the old text or the new one. The old file stays as FILE.bak if `backup`; a
+/// symbolic link keeps pointing to its file. False: errno, the old file is untouched.
+bool replace_file(const std::string &filename, const std::string &text, bool backup);
+
+void forget_problems();
+/// "FILE:LINE:COLUMN: WHAT" (column 0: none) to standard error and to tooldata_problems().
+void problem(const std::string &file, int line, int column, const std::string &what);
+
+} // namespace tooltext
+
+#endif

@@ -1,0 +1,3 @@
+#!/bin/bash
+../lib/machine-test script.py "$@"
+../lib/machine-test remapped.py TASK.RUN_FROM_LINE=restore "RS274NGC.REMAP=M6 modalgroup=6 ngc=change" RS274NGC.SUBROUTINE_PATH=. -file change.ngc

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# FP-014: with the chain open a reset says which input is open, the machine does not turn on and
+# nothing jogs; after the chain closes it takes a reset and turning on again.
+from mill import *
+
+halcmd("unlinkp", "iocontrol.0.emc-enable-in")
+setp("iocontrol.0.emc-enable-in", 0)
+sleep(0.1)
+print(poll().task_state == STATE_ESTOP, messages())
+c.state(STATE_ESTOP_RESET)
+print(c.wait_complete())
+sleep(1)
+print(poll().task_state == STATE_ESTOP, messages())
+c.state(STATE_ON)
+print(c.wait_complete(), messages(), poll().task_state == STATE_ESTOP)
+c.jog(JOG_INCREMENT, True, 0, 10, 5)
+print(c.wait_complete(), messages())
+sleep(1)
+print(poll().joint[0]["output"], s.enabled)
+setp("iocontrol.0.emc-enable-in", 1)
+sleep(0.1)
+print(poll().task_state == STATE_ESTOP_RESET, s.enabled, messages())
+on()
+print(poll().task_state == STATE_ON, mdi("G0 X1"), messages())
+setp("iocontrol.0.emc-enable-in", 0)
+sleep(0.1)
+print(poll().task_state == STATE_ESTOP, s.enabled, all(s.homed[:3]))
+setp("iocontrol.0.emc-enable-in", 1)
+sleep(0.1)
+print(poll().task_state == STATE_ESTOP_RESET, s.enabled, getp("spindle.0.on"), getp("iocontrol.0.coolant-flood"))

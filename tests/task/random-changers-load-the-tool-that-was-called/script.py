@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# FP-080, FP-084: pockets differ from numbers; T of the tool in the spindle drops older preselections;
+# an abort at each moment of a change leaves table, status and file agreeing.
+import subprocess
+
+from mill import *
+
+
+def table():
+    """(pocket, tool) of the shared tool data."""
+    text = clock.run(["tool_mmap_read", "0", "10"], stdout=subprocess.PIPE, text=True).stdout
+    rows = [l.split() for l in text.splitlines()[2:]]
+    return sorted((int(r[2]), int(r[1])) for r in rows if int(r[1]) >= 0)
+
+
+def file():
+    return sorted((int(l.split()[1][1:]), int(l.split()[0][1:])) for l in open("mill.tbl") if l.startswith("T"))
+
+
+def show(what, result=""):
+    poll()
+    print(f"{what:24} {result} T{s.tool_in_spindle} prepared {s.pocket_prepped} number {getp('iocontrol.0.tool-number')} table {table()}", "" if table() == file() else f"FILE {file()}", messages())
+
+
+on()
+show("start")
+show("T12 M6", mdi("T12 M6"))
+mdi("T3")
+mdi("T30")
+show("T12 M6, it is in", mdi("T12 M6"))
+mdi("T3")
+show("T30 M6", mdi("T30 M6"))
+show("M6 alone", mdi("M6"))
+show("M61 Q3", mdi("M61 Q3"))
+show("T0 M6", mdi("T0 M6"))
+show("T99", mdi("T99 M6"))
+show("G10 L1", mdi("G10 L1 P30 Z33"))
+mdi("T12 M6")
+mdi("G43")
+print(poll().tool_offset[2], s.tool_table[0].zoffset)
+c.load_tool_table()
+show("reload", c.wait_complete())
+for moment in ("prepare", "change"):
+    for stop in (c.abort, lambda: c.state(STATE_ESTOP), lambda: c.state(STATE_OFF)):
+        halcmd("unlinkp", f"iocontrol.0.tool-{moment}d")
+        setp(f"iocontrol.0.tool-{moment}d", 0)
+        mode(MODE_MDI)
+        c.mdi("T30 M6")
+        need(lambda s: getp(f"iocontrol.0.tool-{moment}") == "TRUE", moment)
+        stop()
+        c.wait_complete()
+        setp(f"iocontrol.0.tool-{moment}d", 1)
+        sleep(0.1)
+        show(f"stopped in {moment}")
+        setp(f"iocontrol.0.tool-{moment}d", 0)
+        halcmd("net", f"tool-{moment}", f"iocontrol.0.tool-{moment}d")
+        if poll().task_state != STATE_ON:
+            on(home=False)
+show("afterwards", mdi("T30 M6"))
