@@ -1,21 +1,19 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
- * axis.c - axis planners of teleop mode and external offsets.
+ * axis.c - axis planners of teleop mode.
  *
- * In:     jog targets, eoffset pins, axis limits, joint limits
+ * In:     jog targets, axis limits, joint limits
  * Out:    positions of nine axes with offsets
  * Thread: servo
  * Method: position and offset of an axis are two planners whose stopping points
- *         together stay within the axis' limits; in teleop the point where all
- *         axes would stop must also lie within the joints' limits.
+ *         together stay within the axis' limits; the point where all axes would
+ *         stop must also lie within the joints' limits.
  */
 #include <math.h>
 #include <string.h>
 #include "motion_priv.h"
 
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
-
-static int no_limits(const struct axis *a) { return a->min_pos_limit == 0.0 && a->max_pos_limit == 0.0; }
 
 void axis_init(struct motion *m)
 {
@@ -79,161 +77,15 @@ int axes_moving(const struct motion *m)
     return 0;
 }
 
-int eoffsets_moving(const struct motion *m)
-{
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
-        if (m->axis[n].ext_offset_tp.curr_vel != 0.0)
-            return 1;
-    return 0;
-}
-
-/* ---- external offsets ---- */
-
-void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction)
-{
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
-        *emcPoseAxis(pose, n) += direction * m->axis[n].ext_offset_tp.curr_pos;
-}
-
-void axis_zero_eoffsets(struct motion *m)
-{
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        simple_tp_adopt(&m->axis[n].ext_offset_tp, 0.0, 0.0, 0.0);
-        m->axis[n].old_eoffset_counts = hal_get_si32(m->pins->axis[n].eoffset_counts);
-        m->axis[n].eoffset_counts_known = 1;
-    }
-}
-
-/* A millicycle of the offset planner's acceleration: below it an offset counts as none. */
-static double eoffset_epsilon(const struct motion *m, const struct axis *a)
-{
-    return a->ext_offset_acc_limit * m->traj_period * m->traj_period * 0.001;
-}
-
-int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets)
-{
-    int any = 0;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        double e = m->axis[n].ext_offset_tp.curr_pos;
-        *emcPoseAxis(offsets, n) = e;
-        any |= fabs(e) > eoffset_epsilon(m, &m->axis[n]);
-    }
-    return any;
-}
-
-void phase_eoffset(struct motion *m)
-{
-    int accept = get_allhomed() && is_enabled(m), any = 0;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        struct axis *a = &m->axis[n];
-        struct axis_pins *p = &m->pins->axis[n];
-        int counts = hal_get_si32(p->eoffset_counts);
-        int delta = a->eoffset_counts_known ? (int)((unsigned)counts - (unsigned)a->old_eoffset_counts) : 0;
-        a->old_eoffset_counts = counts;
-        a->eoffset_counts_known = 1;
-        any |= fabs(a->ext_offset_tp.curr_pos) > eoffset_epsilon(m, a);
-        if (!hal_get_bool(p->eoffset_enable)) {
-            a->ext_offset_tp.enable = 0;
-            continue;
-        }
-        a->ext_offset_tp.enable = 1;
-        if (hal_get_bool(p->eoffset_clear)) {
-            a->ext_offset_tp.pos_cmd = 0.0;
-            hal_set_real(p->eoffset_request, 0.0);
-            continue;
-        }
-        if (delta != 0 && accept) {
-            double step = delta * hal_get_real(p->eoffset_scale);
-            if (isfinite(step))
-                a->ext_offset_tp.pos_cmd += step;
-            hal_set_real(p->eoffset_request, a->ext_offset_tp.pos_cmd);
-        }
-    }
-    hal_set_bool(m->pins->eoffset_active, any);
-}
-
-static void eoffset_limits(struct axis *a)
-{
-    double whole = a->acc_limit + a->ext_offset_acc_limit;
-    a->ext_offset_tp.max_vel = a->ext_offset_vel_limit;
-    a->ext_offset_tp.max_acc = a->ext_offset_acc_limit;
-    a->ext_offset_tp.max_jerk = whole > 0.0 ? a->jerk_limit * a->ext_offset_acc_limit / whole : 0.0;
-}
-
-/* One step towards a target within [lo, hi]; the planner's own target stays. */
-static void bounded_step(simple_tp_t *tp, double lo, double hi, double T)
-{
-    double asked = tp->pos_cmd;
-    int enabled = tp->enable;
-    if (!enabled && tp->curr_vel == 0.0 && tp->curr_acc == 0.0) {
-        tp->pos_cmd = tp->curr_pos;
-        tp->active = 0;
-        return;
-    }
-    if (enabled)
-        tp->pos_cmd = fmax(lo, fmin(hi, asked));
-    simple_tp_update(tp, T);
-    if (enabled)
-        tp->pos_cmd = asked;
-}
-
-struct reach {
-    double lo, hi; /* where the planner may still get to when it stops now */
-};
-
-static struct reach reach_of(const simple_tp_t *tp, double T)
-{
-    double d = simple_tp_stop_distance(tp, T);
-    struct reach r = {tp->curr_pos + fmin(0.0, d), tp->curr_pos + fmax(0.0, d)};
-    return r;
-}
-
-/* ---- coordinated mode ---- */
-
-void axis_coord_step(struct motion *m, EmcPose *pose)
-{
-    double T = m->traj_period;
-    m->eoffset_limited = 0;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        struct axis *a = &m->axis[n];
-        simple_tp_t *e = &a->ext_offset_tp;
-        double *at = emcPoseAxis(pose, n), before = e->curr_pos;
-        if (a->ext_offset_vel_limit <= 0.0 || a->ext_offset_acc_limit <= 0.0)
-            continue;
-        eoffset_limits(a);
-        if (no_limits(a))
-            bounded_step(e, -INFINITY, INFINITY, T);
-        else
-            bounded_step(e, fmin(0.0, a->min_pos_limit - *at), fmax(0.0, a->max_pos_limit - *at), T);
-        double sum = *at + e->curr_pos;
-        if (!no_limits(a) && e->curr_pos != 0.0) {
-            if ((sum >= a->max_pos_limit && e->curr_pos > 0.0) || (sum <= a->min_pos_limit && e->curr_pos < 0.0)) {
-                double bound = e->curr_pos > 0.0 ? a->max_pos_limit : a->min_pos_limit;
-                m->eoffset_limited = 1;
-                /* the offset gives way; a program that is out of the limits itself is not held */
-                if (e->curr_pos > 0.0)
-                    e->curr_pos = fmax(0.0, fmin(e->curr_pos, bound - *at));
-                else
-                    e->curr_pos = fmin(0.0, fmax(e->curr_pos, bound - *at));
-                e->curr_vel = (e->curr_pos - before) / T;
-                e->curr_vel = fmax(-e->max_vel, fmin(e->max_vel, e->curr_vel));
-                e->curr_acc = 0.0;
-            }
-        }
-        *at += e->curr_pos;
-    }
-    hal_set_bool(m->pins->eoffset_limited, m->eoffset_limited);
-}
-
 /* ---- teleop mode ---- */
 
-static void teleop_limits(const struct motion *m, struct axis *a)
+static void teleop_limits(struct axis *a, int offsets)
 {
-    (void)m;
+    double whole = a->acc_limit + a->ext_offset_acc_limit;
     if (!(a->teleop_tp.max_vel <= a->vel_limit))
         a->teleop_tp.max_vel = a->vel_limit;
     a->teleop_tp.max_acc = a->acc_limit * a->jog_acc_scale;
-    a->teleop_tp.max_jerk = a->jerk_limit;
+    a->teleop_tp.max_jerk = offsets ? a->jerk_limit * a->acc_limit / whole : a->jerk_limit;
 }
 
 /* One step of axis n; the sum of position and offset can always stop within the limits. */
@@ -242,22 +94,20 @@ static void teleop_axis_step(struct motion *m, int n)
     struct axis *a = &m->axis[n];
     simple_tp_t *p = &a->teleop_tp, *e = &a->ext_offset_tp;
     double T = m->traj_period, lo = a->min_pos_limit, hi = a->max_pos_limit;
-    int offsets = a->ext_offset_vel_limit > 0.0 && a->ext_offset_acc_limit > 0.0;
-    teleop_limits(m, a);
-    if (offsets)
-        eoffset_limits(a);
-    if (no_limits(a)) {
-        bounded_step(p, -INFINITY, INFINITY, T);
+    int offsets = eoffset_prepare(a);
+    teleop_limits(a, offsets);
+    if (axis_has_no_limits(a)) {
+        axis_step_within(p, -INFINITY, INFINITY, T);
         if (offsets)
-            bounded_step(e, -INFINITY, INFINITY, T);
+            axis_step_within(e, -INFINITY, INFINITY, T);
         return;
     }
-    struct reach pr = reach_of(p, T), er = reach_of(e, T);
+    struct axis_reach pr = axis_reach_of(p, T), er = axis_reach_of(e, T);
     /* never further out than where it is already bound to stop */
-    bounded_step(p, fmin(lo - er.lo, pr.lo), fmax(hi - er.hi, pr.hi), T);
-    pr = reach_of(p, T);
+    axis_step_within(p, fmin(lo - er.lo, pr.lo), fmax(hi - er.hi, pr.hi), T);
+    pr = axis_reach_of(p, T);
     if (offsets)
-        bounded_step(e, fmin(fmin(lo - pr.lo, er.lo), 0.0), fmax(fmax(hi - pr.hi, er.hi), 0.0), T);
+        axis_step_within(e, fmin(fmin(lo - pr.lo, er.lo), 0.0), fmax(fmax(hi - pr.hi, er.hi), 0.0), T);
     double sum = p->curr_pos + e->curr_pos;
     if (e->curr_pos != 0.0 && (sum >= hi - TELEOP_EPSILON || sum <= lo + TELEOP_EPSILON))
         m->eoffset_limited = 1;

@@ -67,18 +67,29 @@ void request_free(struct motion *m)
     m->internal->coordinating = m->internal->teleoperating = 0;
 }
 
+/* Homing runs in free mode only: it would wait, and go on by itself when free mode comes back. */
+static void cancel_homing(struct motion *m)
+{
+    for (int j = 0; j < all_joints(m); j++)
+        if (!get_home_is_idle(j))
+            do_cancel_homing(j);
+}
+
 void request_coord(struct motion *m)
 {
     m->internal->coordinating = 1;
     m->internal->teleoperating = 0;
     if (unhomed_refusal(m, "all joints must be homed before going into coordinated mode"))
         m->internal->coordinating = 0;
+    else
+        cancel_homing(m);
 }
 
 void request_teleop(struct motion *m)
 {
     if (unhomed_refusal(m, "all joints must be homed before going into teleop mode"))
         return;
+    cancel_homing(m);
     for (int j = 0; j < all_joints(m); j++)
         m->joint[j].free_tp.enable = 0;
     m->internal->teleoperating = 1;

@@ -341,7 +341,7 @@ typedef struct emcmot_status {
     EmcPose dtg;
     double current_vel, requested_vel;
     double current_acc, current_jerk;
-    double decel_dist;
+    double decel_dist;   /* in which the path comes to rest when held; kept while external offsets are applied */
     PmCartesian current_dir; /* unit vector of the path in xyz */
     unsigned int tcqlen;
     EmcPose tool_offset;

@@ -104,6 +104,10 @@ struct axis {
     double jog_acc_scale;                /* of the wheel jog in progress, else 1 */
 };
 
+struct axis_reach {
+    double lo, hi; /* units */
+};
+
 /* Sizes given at load. */
 struct motion_sizes {
     int joints, extra_joints, spindles, dio, aio, misc_errors;
@@ -150,6 +154,7 @@ struct motion {
     double joint_acc_scale[EMCMOT_MAX_JOINTS]; /* wheel jog's fraction, else 1 */
     int joint_violated[EMCMOT_MAX_JOINTS];     /* soft limit message given */
     int eoffset_limited;
+    EmcPose path_was;          /* the planner's position of the cycle before */
     int jog_was_active;
     char wait_atspeed_told;
 };
@@ -222,7 +227,7 @@ void phase_homing(struct motion *m);             /* mode.c:   homing module -> f
 void phase_planner_type(struct motion *m);       /* mode.c:   pending type -> status.planner_type */
 void phase_position(struct motion *m);           /* position.c: planners -> pos_cmd of each joint */
 void phase_compensation(struct motion *m);       /* comp.c:   pos_cmd, vel_cmd -> backlash_filt */
-void phase_eoffset(struct motion *m);            /* axis.c:   eoffset pins -> ext_offset_tp */
+void phase_eoffset(struct motion *m);            /* eoffset.c: eoffset pins -> ext_offset_tp */
 void phase_output(struct motion *m);             /* output.c: everything -> pins */
 void phase_status(struct motion *m);             /* output.c: everything -> status block */
 
@@ -241,21 +246,34 @@ int kinematics_inverse(struct motion *m, const EmcPose *pose, double *joint);
 /* 1: the planner is done and the interpolators delivered its last point. */
 int coord_in_position(struct motion *m);
 
-/* axis.c: axis planners and external offsets */
+/* axis.c: axis planners */
 void axis_init(struct motion *m);
 void axes_sync_to(struct motion *m, const EmcPose *pose); /* at rest there */
 void axes_abort(struct motion *m, int immediate);
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
-int eoffsets_moving(const struct motion *m);
 void axis_teleop_step(struct motion *m, EmcPose *pose);   /* -> positions with offsets */
-void axis_coord_step(struct motion *m, EmcPose *pose);    /* adds offsets within limits */
-void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction);
-void axis_zero_eoffsets(struct motion *m);
-int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets);
 double axis_get_vel_limit(int axis);
 double axis_get_acc_limit(int axis);
 double axis_get_jerk_limit(int axis); /* 0: none */
+
+/* eoffset.c: external offsets */
+int axis_has_no_limits(const struct axis *a);
+int eoffsets_moving(const struct motion *m);
+/* Sets the limits of a's offset planner; 0: the axis takes no offsets. */
+int eoffset_prepare(struct axis *a);
+/* 1: the path must be held this cycle so that path and offset together stay within the limits. */
+int eoffset_path_waits(struct motion *m);
+void eoffset_coord_step(struct motion *m, EmcPose *pose); /* adds offsets within limits */
+/* Joints take over the motion: offsets stay where they are. */
+void eoffsets_hand_over(struct motion *m);
+void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction);
+void axis_zero_eoffsets(struct motion *m);
+int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets);
+/* One step of period T (s) towards a target within [lo, hi]; the planner's own target stays. */
+void axis_step_within(simple_tp_t *tp, double lo, double hi, double T);
+/* Where a planner may still get to when it stops now. */
+struct axis_reach axis_reach_of(const simple_tp_t *tp, double T);
 
 /* jog.c */
 void joint_stop(struct motion *m, int j, int immediate);

@@ -123,12 +123,17 @@ void position_enter_free(struct motion *m)
     m->aligning = 0;
     for (int j = 0; j < all_joints(m); j++) {
         emcmot_joint_t *jt = &m->joint[j];
-        /* speed and acceleration as differences: what the next position is compared with */
+        /* speed and acceleration as differences: what the next position is compared with; a
+         * trapezoidal planner counts the last cycle's mean speed, a jerk-limited one the present speed */
         double T = m->servo_period, d1 = jt->pos_cmd - m->pos_was[j][0], d2 = m->pos_was[j][0] - m->pos_was[j][1];
-        simple_tp_adopt(&jt->free_tp, jt->pos_cmd, d1 / T, (d1 - d2) / (T * T));
+        double acc = (d1 - d2) / (T * T);
+        set_joint_limits(m, j);
+        simple_tp_adopt(&jt->free_tp, jt->pos_cmd,
+                        d1 / T + (jt->free_tp.max_jerk > SIMPLE_TP_MIN_JERK ? 0.5 * acc * T : 0.0), acc);
         jt->free_tp.max_vel = jt->vel_limit;
         jt->kb_jjog_active = jt->wheel_jjog_active = 0;
     }
+    eoffsets_hand_over(m);
 }
 
 static void align(struct motion *m)
@@ -199,9 +204,11 @@ static void coord_position(struct motion *m)
     }
     if (m->cubic[0].need_next) {
         EmcPose pose;
+        if (eoffset_path_waits(m))
+            m->status->net_feed_scale = 0.0;
         tpRunCycle(&m->tp, m->period_ns);
         tpGetPos(&m->tp, &pose);
-        axis_coord_step(m, &pose);
+        eoffset_coord_step(m, &pose);
         if (feed_interpolators(m, &pose) != 0) {
             stop_on_kinematics(m);
             return;

@@ -610,7 +610,7 @@ int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double ini_maxvel, dou
 static void idle_status(struct planner *pl)
 {
     status->enables_queued = status->enables_new;
-    status->distance_to_go = 0;
+    status->distance_to_go = status->decel_dist = 0;
     ZERO_EMC_POSE(status->dtg);
     status->current_vel = status->requested_vel = 0;
     status->current_acc = status->current_jerk = 0;
@@ -860,6 +860,7 @@ static void moving_status(struct planner *pl, const double before[PATH_AXES])
     status->current_acc = rate;
     status->current_vel = speed;
     status->requested_vel = requested;
+    if (status->external_offsets_applied) status->decel_dist = traj_stop_distance(tj) / g->stretch;
     to_pose(step, &pose);
     double len = sqrt(pose.tran.x * pose.tran.x + pose.tran.y * pose.tran.y + pose.tran.z * pose.tran.z);
     if (len > 0) status->current_dir = (PmCartesian){ pose.tran.x / len, pose.tran.y / len, pose.tran.z / len };

@@ -230,6 +230,23 @@ static double stop_b(const struct traj *tj, double *d)
     return b;
 }
 
+double traj_stop_distance(const struct traj *tj)
+{
+    uint32_t index = tj->cell;
+    double b = tj->v * tj->v, x = tj->v * tj->dt; /* speed falls from the next cycle on */
+
+    for (int n = 0; n < STOP_SCAN && b > 0; n++) {
+        const struct traj_cell *c = &tj->cells[index & (TRAJ_CELLS - 1)];
+        double brake = allowed(brakes(tj, c), b), d = c->len;
+        if (n == 0) d = tj->dir > 0 ? c->s0 + c->len - tj->s : tj->s - c->s0;
+        if (2 * brake * d >= b) return x + b / (2 * brake);
+        x += d;
+        b -= 2 * fmax(0, brake) * d;
+        if (tj->dir > 0 ? ++index == tj->cell_end : index-- == tj->cell_first) break;
+    }
+    return x;
+}
+
 /* Speed aimed at in a cell. */
 static double target_speed(const struct traj *tj, const struct traj_cell *c)
 {

@@ -248,6 +248,8 @@ double traj_jerk(const struct traj *tj, const struct traj_seg *g);
 double traj_acc(const struct traj *tj, uint32_t index);
 /* Seconds by which the position lags behind what drive asks for. */
 double traj_lag(const struct traj *tj);
+/* Path length (units of s) in which motion comes to rest when it is held from now on; not less. */
+double traj_stop_distance(const struct traj *tj);
 /* Moves that shape the position now: 0 idle, 2 in a rounding, else 1. */
 int traj_active(const struct traj *tj);
 /* Position of the rounded path at s. */
