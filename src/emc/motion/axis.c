@@ -13,6 +13,7 @@
 #include <string.h>
 #include "motion_priv.h"
 
+#define STOP_PLACES 3       /* looked at on the way to a stop */
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
 
 void axis_init(struct motion *m)
@@ -22,6 +23,7 @@ void axis_init(struct motion *m)
         memset(a, 0, sizeof(*a));
         a->vel_limit = a->acc_limit = 1.0;
         a->locking_joint = -1;
+        a->part.vel = a->part.acc = a->part.jerk = 1.0;
         a->jog_acc_scale = 1.0;
     }
 }
@@ -79,23 +81,44 @@ int axes_moving(const struct motion *m)
 
 /* ---- teleop mode ---- */
 
-static void teleop_limits(struct axis *a, int offsets)
+/* Limits of both planners of an axis; 0: it takes no offsets. */
+static int teleop_limits(struct axis *a, const struct teleop_scale *scale)
 {
     double whole = a->acc_limit + a->ext_offset_acc_limit;
-    if (!(a->teleop_tp.max_vel <= a->vel_limit))
-        a->teleop_tp.max_vel = a->vel_limit;
-    a->teleop_tp.max_acc = a->acc_limit * a->jog_acc_scale;
-    a->teleop_tp.max_jerk = offsets ? a->jerk_limit * a->acc_limit / whole : a->jerk_limit;
+    int offsets = eoffset_prepare(a);
+    simple_tp_t *p = &a->teleop_tp, *e = &a->ext_offset_tp;
+    p->max_vel = fmin(a->jog_vel, a->vel_limit) * scale->vel;
+    p->max_acc = a->acc_limit * a->jog_acc_scale * scale->acc;
+    p->max_jerk = (offsets ? a->jerk_limit * a->acc_limit / whole : a->jerk_limit) * scale->jerk;
+    if (offsets) {
+        e->max_vel *= scale->vel;
+        e->max_acc *= scale->acc;
+        e->max_jerk *= scale->jerk;
+    }
+    if (scale->crowded) {
+        p->max_vel = fmin(p->max_vel, fabs(p->curr_vel));
+        e->max_vel = fmin(e->max_vel, fabs(e->curr_vel));
+    }
+    return offsets;
+}
+
+static int axis_moves(const struct axis *a) { return a->teleop_tp.curr_vel != 0.0 || a->ext_offset_tp.curr_vel != 0.0; }
+
+/* Speed that a planner has or cannot avoid any more. */
+double axis_speed_ahead(const simple_tp_t *tp)
+{
+    double rising = fmax(0.0, tp->curr_vel < 0.0 ? -tp->curr_acc : tp->curr_acc);
+    return fabs(tp->curr_vel) + (tp->max_jerk > SIMPLE_TP_MIN_JERK ? rising * rising / (1.6 * tp->max_jerk) : 0.0);
 }
 
 /* One step of axis n; the sum of position and offset can always stop within the limits. */
-static void teleop_axis_step(struct motion *m, int n)
+static void teleop_axis_step(struct motion *m, int n, const struct teleop_scale *scale)
 {
     struct axis *a = &m->axis[n];
     simple_tp_t *p = &a->teleop_tp, *e = &a->ext_offset_tp;
     double T = m->traj_period, lo = a->min_pos_limit, hi = a->max_pos_limit;
-    int offsets = eoffset_prepare(a);
-    teleop_limits(a, offsets);
+    int offsets = teleop_limits(a, scale);
+    a->part = *scale;
     if (axis_has_no_limits(a)) {
         axis_step_within(p, -INFINITY, INFINITY, T);
         if (offsets)
@@ -128,42 +151,94 @@ static double outside(const struct motion *m, const double *q)
     return sum;
 }
 
-/* 1 when the axes, stopped from now on, come to rest at a place the joints can be at. */
-static int stop_is_reachable(struct motion *m)
+/* 1 when the axes, stopped from now on (with other parts of their limits, if any), come to rest
+ * at a place the joints can be at, over places they can be at. */
+static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
 {
     double q[EMCMOT_MAX_JOINTS], now[EMCMOT_MAX_JOINTS];
-    EmcPose stop;
+    EmcPose way;
     KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        const struct axis *a = &m->axis[n];
-        *emcPoseAxis(&stop, n) = a->teleop_tp.curr_pos + simple_tp_stop_distance(&a->teleop_tp, m->traj_period) +
-                                 a->ext_offset_tp.curr_pos;
-    }
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
         q[j] = now[j] = m->joint[j].coarse_pos;
-    if (kinematicsInverse(&stop, q, &m->iflags, &fflags) != 0)
-        return 0;
-    return outside(m, q) <= outside(m, now) + TELEOP_EPSILON;
+    double already = outside(m, now);
+    for (int i = 1; i <= STOP_PLACES; i++) {
+        for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+            struct axis a = m->axis[n];
+            if (scale)
+                teleop_limits(&a, scale);
+            const simple_tp_t *p = &a.teleop_tp, *e = &a.ext_offset_tp;
+            double stop = simple_tp_stop_distance(p, m->traj_period) + simple_tp_stop_distance(e, m->traj_period);
+            *emcPoseAxis(&way, n) = p->curr_pos + e->curr_pos + stop * i / STOP_PLACES;
+        }
+        if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || outside(m, q) > already + TELEOP_EPSILON)
+            return 0;
+    }
+    return 1;
+}
+
+/* 1 when the acceleration of a planner ends in time: it gets no faster than its limit, and a brake
+ * is released before the speed is zero. */
+static int acceleration_can_end(const simple_tp_t *tp)
+{
+    double braking = fmax(0.0, tp->curr_vel < 0.0 ? tp->curr_acc : -tp->curr_acc);
+    if (tp->max_jerk <= SIMPLE_TP_MIN_JERK)
+        return 1;
+    return axis_speed_ahead(tp) <= fmax(tp->max_vel, fabs(tp->curr_vel)) &&
+           braking * braking <= 1.6 * tp->max_jerk * fabs(tp->curr_vel);
+}
+
+/* 1 when every moving axis can still stop where it could with its former part of acceleration
+ * and jerk: within the limits of axes and joints, without getting too fast. */
+static int parts_can_change(struct motion *m, const struct teleop_scale *scale)
+{
+    double T = m->traj_period;
+    int lower = 0;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        struct axis *a = &m->axis[n], with = *a;
+        if (!axis_moves(a) || (scale->acc >= a->part.acc && scale->jerk >= a->part.jerk))
+            continue;
+        lower = 1;
+        teleop_limits(&with, scale);
+        if (!acceleration_can_end(&with.teleop_tp) || !acceleration_can_end(&with.ext_offset_tp))
+            return 0;
+        struct axis_reach p = axis_reach_of(&with.teleop_tp, T), e = axis_reach_of(&with.ext_offset_tp, T);
+        if (!axis_has_no_limits(a) && (p.hi + e.hi > a->max_pos_limit || p.lo + e.lo < a->min_pos_limit))
+            return 0;
+    }
+    return !lower || stop_is_reachable(m, scale);
+}
+
+static void teleop_step(struct motion *m, const struct teleop_scale *scale, int keep)
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        struct axis *a = &m->axis[n];
+        struct teleop_scale own = *scale;
+        if (keep && axis_moves(a)) {
+            own.acc = fmax(own.acc, a->part.acc);
+            own.jerk = fmax(own.jerk, a->part.jerk);
+        }
+        if (keep)
+            own.crowded = 1;
+        teleop_axis_step(m, n, &own);
+    }
 }
 
 void axis_teleop_step(struct motion *m, EmcPose *pose)
 {
-    simple_tp_t position[EMCMOT_MAX_AXIS], offset[EMCMOT_MAX_AXIS];
-    int jogging = 0;
+    struct teleop_scale scale;
+    int jogging = 0, keep;
     m->eoffset_limited = 0;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        position[n] = m->axis[n].teleop_tp;
-        offset[n] = m->axis[n].ext_offset_tp;
-        teleop_axis_step(m, n);
-        jogging |= m->axis[n].teleop_tp.enable && m->axis[n].teleop_tp.active;
-    }
-    if (jogging && !stop_is_reachable(m)) {
-        for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-            m->axis[n].teleop_tp = position[n];
-            m->axis[n].ext_offset_tp = offset[n];
-            m->axis[n].teleop_tp.enable = 0;
-            teleop_axis_step(m, n);
-        }
+    teleop_scale(m, &scale);
+    keep = !parts_can_change(m, &scale);
+    memcpy(m->axis_was, m->axis, sizeof(m->axis));
+    teleop_step(m, &scale, keep);
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        jogging |= axis_moves(&m->axis[n]);
+    if (jogging && !stop_is_reachable(m, NULL)) {
+        memcpy(m->axis, m->axis_was, sizeof(m->axis));
+        for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+            m->axis[n].teleop_tp.enable = m->axis[n].ext_offset_tp.enable = 0;
+        teleop_step(m, &scale, keep);
     }
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         struct axis *a = &m->axis[n];

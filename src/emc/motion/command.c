@@ -836,7 +836,7 @@ static void jog_axis(M *m, C *c, enum jog_kind kind)
     for (int j = 0; j < all_joints(m); j++)
         m->joint[j].free_tp.enable = 0;
     ax->teleop_tp.pos_cmd = target;
-    ax->teleop_tp.max_vel = fabs(c->vel);
+    ax->jog_vel = fabs(c->vel);
     ax->jog_acc_scale = 1.0;
     ax->kb_ajog_active = 1;
     ax->teleop_tp.enable = 1;

@@ -155,7 +155,7 @@ static void axis_wheel(struct motion *m, int n, int delta)
     for (int j = 0; j < all_joints(m); j++)
         m->joint[j].free_tp.enable = 0;
     a->teleop_tp.pos_cmd = target;
-    a->teleop_tp.max_vel = a->vel_limit;
+    a->jog_vel = a->vel_limit;
     a->jog_acc_scale = fraction;
     a->wheel_ajog_active = 1;
     a->teleop_tp.enable = 1;

@@ -91,16 +91,23 @@ struct motion_pins {
 
 /* ---- state ---------------------------------------------------------------- */
 
+struct teleop_scale {
+    double vel, acc, jerk; /* parts of the axes' limits, 0..1 */
+    int crowded;           /* no axis may get faster now */
+};
+
 struct axis {
     double min_pos_limit, max_pos_limit; /* both 0: not configured */
     double vel_limit, acc_limit, jerk_limit;
     double ext_offset_vel_limit, ext_offset_acc_limit;
     int locking_joint;                   /* -1 none */
+    double jog_vel;                      /* asked for, >= 0 */
     simple_tp_t teleop_tp;               /* position without external offset */
     simple_tp_t ext_offset_tp;           /* external offset */
     int kb_ajog_active, wheel_ajog_active;
     int old_ajog_counts, old_eoffset_counts;
     int eoffset_counts_known;
+    struct teleop_scale part;            /* in effect */
     double jog_acc_scale;                /* of the wheel jog in progress, else 1 */
 };
 
@@ -134,6 +141,7 @@ struct motion {
     TP_STRUCT tp;
     cubic_t cubic[EMCMOT_MAX_JOINTS];
     struct axis axis[EMCMOT_MAX_AXIS];
+    struct axis axis_was[EMCMOT_MAX_AXIS]; /* before the step of this cycle */
     emcmot_config_t config_work; /* published by config_publish() */
 
     long period_ns;            /* of the servo cycle, 0 before the first */
@@ -253,9 +261,14 @@ void axes_abort(struct motion *m, int immediate);
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
 void axis_teleop_step(struct motion *m, EmcPose *pose);   /* -> positions with offsets */
+/* Speed (units/s, >= 0) that a planner has or cannot avoid any more. */
+double axis_speed_ahead(const simple_tp_t *tp);
 double axis_get_vel_limit(int axis);
 double axis_get_acc_limit(int axis);
 double axis_get_jerk_limit(int axis); /* 0: none */
+
+/* teleop_scale.c: parts of the axes' limits that keep the joints within theirs */
+void teleop_scale(struct motion *m, struct teleop_scale *scale);
 
 /* eoffset.c: external offsets */
 int axis_has_no_limits(const struct axis *a);

@@ -270,8 +270,7 @@ static void soft_limits(struct motion *m)
             m->joint_violated[j] = 0;
             continue;
         }
-        if (jt->free_tp.max_jerk > 0.0 && m->status->motion_state == EMCMOT_MOTION_FREE)
-            eps += SIMPLE_TP_OVERSHOOT * jt->free_tp.max_jerk * T * T * T;
+        eps += SIMPLE_TP_OVERSHOOT * fmax(jt->jerk_limit, 0.0) * T * T * T;
         int low = jt->pos_cmd < jt->min_pos_limit - eps, high = jt->pos_cmd > jt->max_pos_limit + eps;
         if ((low || high) && !m->joint_violated[j]) {
             if (low)

@@ -94,7 +94,6 @@ static double stop_reach(double v, double a, double j, double amax)
 struct approach {
     double e, v, a;      /* distance to the target, speed, acceleration now */
     double vmax, amax, j, T;
-    int to_target;       /* 0: only the speed counts */
 };
 
 /* 1 when, having acceleration a1 at the end of this cycle, both limits can still be kept. */
@@ -103,8 +102,6 @@ static int allowed(const struct approach *p, double a1)
     double v1 = p->v + 0.5 * (p->a + a1) * p->T;
     if (v1 + a1 * fabs(a1) / (2.0 * p->j) > p->vmax)
         return 0;
-    if (!p->to_target)
-        return 1;
     if (p->v + p->T * (p->a / 3.0 + a1 / 6.0) > p->vmax) /* the cycle's mean */
         return 0;
     double e1 = p->e - p->T * (p->v + p->T * (p->a / 3.0 + a1 / 6.0));
@@ -129,69 +126,60 @@ static double best_acceleration(const struct approach *p, double da)
     return lo;
 }
 
-/* Jerk of the first of three cycles that bring (e, v, a) to exactly zero, or of two
- * cycles that end the motion when only the speed counts. Returns 0 when a limit forbids it. */
+/* Jerk of the first of three cycles that bring (e, v, a) to exactly zero. Returns 0 when a limit forbids it. */
 static int last_cycles(const struct approach *p, double jmax, double *jerk)
 {
     double T = p->T, unit = jmax * T, u[3], e = p->e, v = p->v, a = p->a;
-    double vn = v / (unit * T), an = a / unit;
-    int n = p->to_target ? 3 : 2;
-    if (p->to_target) {
-        double en = p->e / (unit * T * T);
-        double k1 = -vn - 2.5 * an;                              /* 2 u1 + u2 */
-        double k2 = (6.0 * (en - 3.0 * vn - 4.5 * an) + an) / 6.0; /* 3 u1 + u2 */
-        u[0] = k2 - k1;
-        u[1] = k1 - 2.0 * u[0];
-        u[2] = -an - u[0] - u[1];
-    } else {
-        u[0] = -vn - 1.5 * an;
-        u[1] = -an - u[0];
-    }
-    for (int i = 0; i < n; i++) {
+    double vn = v / (unit * T), an = a / unit, en = p->e / (unit * T * T);
+    double k1 = -vn - 2.5 * an;                                /* 2 u1 + u2 */
+    double k2 = (6.0 * (en - 3.0 * vn - 4.5 * an) + an) / 6.0; /* 3 u1 + u2 */
+    u[0] = k2 - k1;
+    u[1] = k1 - 2.0 * u[0];
+    u[2] = -an - u[0] - u[1];
+    for (int i = 0; i < 3; i++) {
         double a1 = a + u[i] * unit;
         if (fabs(u[i]) > 1.0 || fabs(a1) > p->amax)
             return 0;
         e -= T * (v + T * (a / 3.0 + a1 / 6.0));
         v += 0.5 * (a + a1) * T;
         a = a1;
-        if (p->to_target && (fabs(v) > p->vmax))
+        if (fabs(v) > p->vmax)
             return 0;
     }
     *jerk = u[0] * jmax;
     return 1;
 }
 
+/* A motion that is to stop goes to where it can, as exactly as to any target, and not beyond
+ * the target it had when that lies there within the rounding to whole cycles. */
+static void aim_at_stop(simple_tp_t *tp, double T)
+{
+    double d = simple_tp_stop_distance(tp, T), left = tp->pos_cmd - tp->curr_pos;
+    double rounding = 25.0 * tp->max_jerk * T * T * T + 0.01 * fabs(d);
+    if (d * left > 0.0 && fabs(left) >= fabs(d) - rounding && fabs(left) <= fabs(d))
+        return;
+    tp->pos_cmd = tp->curr_pos + d;
+}
+
 static void jerk_limited_step(simple_tp_t *tp, double T)
 {
     double da = tp->max_jerk * T, j = STOP_JERK * tp->max_jerk;
     double tiny_v = 0.001 * da * T, tiny_p = tiny_v * T;
-    double err = tp->pos_cmd - tp->curr_pos, v = tp->curr_vel, a = tp->curr_acc;
-    struct approach p = {0, 0, 0, tp->max_vel, tp->max_acc, j, T, tp->enable};
-    double dir, a1, end_v = v + 0.5 * a * T;
+    double v = tp->curr_vel, a = tp->curr_acc, dir, err, a1, end_v = v + 0.5 * a * T;
 
     if (!tp->enable)
-        err = 0.0;
-    double end_p = T * (v + T * a / 3.0);
-    if (fabs(end_v) <= tiny_v && fabs(a) <= da && (!tp->enable || fabs(err - end_p) <= tiny_p)) {
+        aim_at_stop(tp, T);
+    err = tp->pos_cmd - tp->curr_pos;
+    if (fabs(end_v) <= tiny_v && fabs(a) <= da && fabs(err - T * (v + T * a / 3.0)) <= tiny_p) {
         /* at rest after this cycle, within 0.1 % of one cycle's jerk */
-        if (tp->enable)
-            tp->curr_pos = tp->pos_cmd;
-        else
-            tp->pos_cmd = tp->curr_pos += end_p;
+        tp->curr_pos = tp->pos_cmd;
         tp->curr_jerk = -a / T;
         tp->curr_vel = tp->curr_acc = 0.0;
         tp->active = 0;
         return;
     }
-    if (tp->enable) {
-        dir = err >= 0.0 ? 1.0 : -1.0;
-    } else {
-        dir = v + a * fabs(a) / (2.0 * j) >= 0.0 ? 1.0 : -1.0;
-        p.vmax = 0.0;
-    }
-    p.e = dir * err;
-    p.v = dir * v;
-    p.a = dir * a;
+    dir = err >= 0.0 ? 1.0 : -1.0;
+    struct approach p = {dir * err, dir * v, dir * a, tp->max_vel, tp->max_acc, j, T};
     if (last_cycles(&p, tp->max_jerk, &a1))
         a1 = a + dir * a1 * T;
     else
@@ -201,8 +189,6 @@ static void jerk_limited_step(simple_tp_t *tp, double T)
     tp->curr_jerk = (a1 - a) / T;
     tp->curr_acc = a1;
     tp->active = 1;
-    if (!tp->enable)
-        tp->pos_cmd = tp->curr_pos;
 }
 
 void simple_tp_update(simple_tp_t *tp, double period)

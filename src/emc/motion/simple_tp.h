@@ -26,7 +26,7 @@ typedef struct simple_tp {
     double max_vel;   /* > 0; lowering it decelerates with max_acc */
     double max_acc;   /* > 0 */
     double max_jerk;  /* 0: none */
-    int enable;       /* 0: stop with the limits, target follows */
+    int enable;       /* 0: stop with the limits, the target becomes the place of the stop */
     double curr_pos;
     double curr_vel;
     double curr_acc;

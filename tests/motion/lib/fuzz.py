@@ -10,7 +10,7 @@ positions consistent with feedback. The sequence depends on the seed alone.
 import random
 
 import kerf_motion as km
-from motion_bench import AXES
+from motion_bench import AXES, Machine
 
 
 class Sequence:
@@ -20,6 +20,7 @@ class Sequence:
         self.events, self.log, self.trace = events, log, trace
         self.id = 0
         self.wheels = {}
+        self.beyond = []
 
     def note(self, text):
         if self.log is not None:
@@ -147,10 +148,12 @@ class Sequence:
         for _ in range(self.events):
             name = self.rng.choices(names, counts)[0]
             getattr(self, name)()
+            told = self.m.errors()
+            self.beyond += [t.strip() for t in told if t.startswith("Exceeded")]
             if self.trace:
                 s = self.m.status()
                 self.note(f"after {name}: state {s['motion_state']} inpos {s['inpos']} depth {s['depth']} "
-                          f"joints {[round(x, 4) for x in self.m.joints_at()]} {self.m.violations()} {self.m.errors()[-2:]}")
+                          f"joints {[round(x, 4) for x in self.m.joints_at()]} {self.m.violations()} {told[-2:]}")
                 if self.m.violations():
                     break
             self.m.sleep(self.rng.choice([0.0, 0.001, 0.003, 0.02, 0.1, 0.5]))
@@ -179,8 +182,8 @@ class Sequence:
             error = abs(self.m.get(f"joint.{j}.f-error"))
             if error > 1e-9:
                 problems.append(f"joint {j} position lost: {error}")
-        problems += self.m.violations()
-        self.m.errors()
+        told = self.m.errors()
+        problems += self.m.violations() + self.beyond + [t.strip() for t in told if t.startswith("Exceeded")]
         return problems
 
 
@@ -188,8 +191,46 @@ WEIGHTS = dict(mode=8, queue_lines=10, term=3, jog=12, jog_abort=4, wheel=5, ove
                abort=4, stop_pin=2, inhibit=2, switch_off=2, probe=1, home=1)
 
 
-def fuzz(machine, seed, weights=None, **options):
+JOG_WEIGHTS = {name: weight for name, weight in WEIGHTS.items() if name != "queue_lines"}
+
+
+class Jogs(Sequence):
+    """The same without coordinated mode."""
+
+    def mode(self):
+        code = self.rng.choice([km.FREE, km.TELEOP, km.TELEOP])
+        self.note(f"mode {code}")
+        self.m.send(code)
+
+
+def machine(name, jerk=0.0, ratio=0.0):
+    """One of the machines of the property tests: jerk limit (0 none), share of external offsets."""
+    options = dict(jerk=jerk, eoffset_ratio=ratio, traj_jerk=jerk or 1e9)
+    if name == "xyz":
+        return Machine(**options)
+    if name == "gantry":
+        return Machine(joints=4, kins="trivkins coordinates=xyyz kinstype=both", axes="xyz",
+                       home_params={1: dict(home_sequence=-1), 2: dict(home_sequence=-1)}, **options)
+    if name == "delta":
+        return Machine(kins="lineardeltakins", low=-1000, high=1000, **options)
+    return Machine(joints=6, kins="5axiskins", axes="xyzbcw", **options)
+
+
+def check(names, seeds, sequence, weights, jerks=(0.0, 5000.0), ratios=(0.0, 0.3), told=str):
+    """Runs seeds on each machine; ends with what went wrong, in words of told(problem) that are not empty."""
+    for name, jerk, ratio in [(n, j, r) for n in names for j in jerks for r in ratios]:
+        m = machine(name, jerk, ratio)
+        w = dict(weights, eoffset=10) if ratio else weights
+        for seed in seeds:
+            problems, _ = fuzz(m, seed, w, sequence)
+            if any(told(p) for p in problems):
+                raise SystemExit(f"{name} jerk {jerk} offsets {ratio}: {problems}")
+        m.close()
+        print(f"{name} jerk {jerk:g} offsets {ratio:g}: {len(seeds)} sequences within limits")
+
+
+def fuzz(machine, seed, weights=None, sequence=Sequence, **options):
     machine.reset_limits()
     log = []
-    problems = Sequence(machine, seed, log=log, **options).run(weights or WEIGHTS)
+    problems = sequence(machine, seed, log=log, **options).run(weights or WEIGHTS)
     return [f"seed {seed}: {p}" for p in problems], log

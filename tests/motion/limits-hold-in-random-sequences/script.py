@@ -1,0 +1,5 @@
+# The same with queued lines in coordinated mode: pause, step, resume, abort, reverse, overrides and
+# external offsets at random times.
+from fuzz import WEIGHTS, Sequence, check
+
+check(["xyz", "gantry"], range(80), Sequence, WEIGHTS, jerks=(0.0,))
