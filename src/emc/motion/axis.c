@@ -40,7 +40,11 @@ double axis_get_acc_limit(int axis)
 
 double axis_get_jerk_limit(int axis)
 {
-    return axis >= 0 && axis < EMCMOT_MAX_AXIS ? motion_state_.axis[axis].jerk_limit : 0.0;
+    if (axis < 0 || axis >= EMCMOT_MAX_AXIS)
+        return 0.0;
+    const struct axis *a = &motion_state_.axis[axis];
+    double whole = a->acc_limit + a->ext_offset_acc_limit; /* the offset has the rest of the jerk */
+    return a->ext_offset_vel_limit > 0.0 && whole > 0.0 ? a->jerk_limit * a->acc_limit / whole : a->jerk_limit;
 }
 
 void axes_sync_to(struct motion *m, const EmcPose *pose)

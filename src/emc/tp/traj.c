@@ -233,7 +233,7 @@ static double stop_b(const struct traj *tj, double *d)
 double traj_stop_distance(const struct traj *tj)
 {
     uint32_t index = tj->cell;
-    double b = tj->v * tj->v, x = tj->v * tj->dt; /* speed falls from the next cycle on */
+    double b = tj->v * tj->v, x = 3 * tj->v * tj->dt + fabs(tj->s - tj->place); /* cycles until it brakes; the filter */
 
     for (int n = 0; n < STOP_SCAN && b > 0; n++) {
         const struct traj_cell *c = &tj->cells[index & (TRAJ_CELLS - 1)];
