@@ -13,6 +13,7 @@
 #include <string.h>
 #include "motion_priv.h"
 
+#define STOP_CYCLES 12      /* jerk T^3 of these: rounding of a stop to whole cycles */
 #define STOP_PLACES 3       /* looked at on the way to a stop */
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
 
@@ -140,17 +141,20 @@ static void teleop_axis_step(struct motion *m, int n, const struct teleop_scale 
         m->eoffset_limited = 1;
 }
 
-/* How far (sum over joints) a set of joint positions lies outside the limits of homed joints. */
+/* How far (sum over joints) a set of joint positions lies outside the limits of homed joints.
+ * A stop with limited jerk is known to some cycles of jerk: where the axis' own limits are those
+ * of the joint they see to the rest, elsewhere that much is kept free. */
 static double outside(const struct motion *m, const double *q)
 {
-    double sum = 0.0;
+    double T = m->traj_period, sum = 0.0, cycles = m->kin_type == KINEMATICS_IDENTITY ? STOP_CYCLES : -STOP_CYCLES;
     for (int j = 0; j < kin_joints(m); j++) {
         const emcmot_joint_t *jt = &m->joint[j];
         if (!is_active(jt) || !get_homed(j))
             continue;
         if (!isfinite(q[j]))
             return INFINITY;
-        sum += fmax(0.0, q[j] - jt->max_pos_limit) + fmax(0.0, jt->min_pos_limit - q[j]);
+        double slack = cycles * fmax(0.0, jt->jerk_limit) * T * T * T;
+        sum += fmax(0.0, q[j] - jt->max_pos_limit - slack) + fmax(0.0, jt->min_pos_limit - slack - q[j]);
     }
     return sum;
 }

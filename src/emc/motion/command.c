@@ -7,13 +7,9 @@
  * Thread: servo, function motion-command-handler; one command a call
  * Method: a table from code to function; each function lists its arguments.
  */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include "motion_priv.h"
-
-#define POSITION_EPSILON 1e-12 /* units: rounding of sums of offsets */
-#define UNCONFIGURED 1e-308    /* an axis whose limits are both below has none */
 
 typedef struct motion M;
 typedef const emcmot_command_t C;
@@ -192,54 +188,6 @@ static void cmd_override_limits(M *m, C *c)
 
 /* ---- moves ---- */
 
-/* Is the end point within axis and joint limits? Reports every violation. */
-static int in_range(M *m, const EmcPose *pos, int id, const char *kind)
-{
-    double joint[EMCMOT_MAX_JOINTS];
-    int ok = 1;
-    for (int a = 0; a < EMCMOT_MAX_AXIS; a++) {
-        double p = emcPoseGetAxis(pos, a), lo = m->axis[a].min_pos_limit, hi = m->axis[a].max_pos_limit;
-        if (fabs(p) < UNCONFIGURED && fabs(lo) < UNCONFIGURED && fabs(hi) < UNCONFIGURED)
-            continue;
-        if (!(p <= hi + POSITION_EPSILON)) {
-            report_error("%s move on line %d would exceed %c's %s limit", kind, id, "XYZABCUVW"[a], "positive");
-            ok = 0;
-        }
-        if (!(p >= lo - POSITION_EPSILON)) {
-            report_error("%s move on line %d would exceed %c's %s limit", kind, id, "XYZABCUVW"[a], "negative");
-            ok = 0;
-        }
-    }
-    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
-        joint[j] = m->joint[j].pos_cmd;
-    if (kinematics_inverse(m, pos, joint) != 0) {
-        report_error("%s move on line %d fails kinematicsInverse", kind, id);
-        return 0;
-    }
-    for (int j = 0; j < kin_joints(m); j++) {
-        const emcmot_joint_t *jt = &m->joint[j];
-        if (!is_active(jt))
-            continue;
-        if (!isfinite(joint[j])) {
-            report_error("%s move on line %d gave non-finite joint location on joint %d", kind, id, j);
-            ok = 0;
-            continue;
-        }
-        /* one rounding unit of the limit: sums of offsets end there (FP-070) */
-        if (joint[j] > jt->max_pos_limit + 4.0 * DBL_EPSILON * fabs(jt->max_pos_limit)) {
-            report_error("%s move on line %d would exceed joint %d's positive limit max:[%f]", kind, id, j,
-                         jt->max_pos_limit);
-            ok = 0;
-        }
-        if (joint[j] < jt->min_pos_limit - 4.0 * DBL_EPSILON * fabs(jt->min_pos_limit)) {
-            report_error("%s move on line %d would exceed joint %d's negative limit min:[%f]", kind, id, j,
-                         jt->min_pos_limit);
-            ok = 0;
-        }
-    }
-    return ok;
-}
-
 static int on_hard_limit(const M *m)
 {
     for (int j = 0; j < all_joints(m); j++)
@@ -258,7 +206,7 @@ static int move_allowed(M *m, C *c, const char *word, const char *kind)
         set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
         return 0;
     }
-    if (!in_range(m, &c->pos, c->id, kind)) {
+    if (c->command == EMCMOT_SET_CIRCLE ? !arc_in_range(m, c) : !in_range(m, &c->pos, c->id, kind)) {
         if (c->command == EMCMOT_SET_LINE)
             report_error("invalid params in linear command");
         answer(m, EMCMOT_COMMAND_INVALID_PARAMS);
@@ -303,6 +251,7 @@ static void move_queued(M *m)
     set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
     set_motion_flag(m, EMCMOT_MOTION_INPOS_BIT, 0);
     m->status->depth = tpQueueDepth(&m->tp);
+    m->queue_end = m->command->pos;
     m->settle = 0;
 }
 

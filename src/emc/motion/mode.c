@@ -259,32 +259,30 @@ void phase_mode(struct motion *m)
 
 /* ---- faults ---- */
 
-static void joint_fault(struct motion *m, int j, const char *fmt)
+/* The joint's fault stops the machine; 1: to be told, as the joint had none yet. */
+static int joint_fault(struct motion *m, emcmot_joint_t *jt)
 {
-    emcmot_joint_t *jt = &m->joint[j];
-    if (!joint_flag(jt, EMCMOT_JOINT_ERROR_BIT)) {
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-        report_error(fmt, j);
-#pragma GCC diagnostic pop
-    }
+    int fresh = !joint_flag(jt, EMCMOT_JOINT_ERROR_BIT);
     set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 1);
     m->internal->enabling = 0;
+    return fresh;
 }
 
 static void joint_faults(struct motion *m, int j)
 {
-    const emcmot_joint_t *jt = &m->joint[j];
+    emcmot_joint_t *jt = &m->joint[j];
     int overridden = m->status->overrideLimitMask >> (2 * j);
     if (!is_active(jt) || !joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT))
         return;
-    if (!get_homing(j) && ((joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) && !(overridden & 2)) ||
-                           (joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT) && !(overridden & 1))))
-        joint_fault(m, j, "joint %d on limit switch error");
-    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT))
-        joint_fault(m, j, "joint %d amplifier fault");
-    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT))
-        joint_fault(m, j, "joint %d following error");
+    int high = joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) && !(overridden & 2);
+    int low = joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT) && !(overridden & 1);
+    if (!get_homing(j) && (high || low) && joint_fault(m, jt))
+        report_error("joint %d on limit switch error (%s switch, position %.5f)", j,
+                     high ? "positive" : "negative", jt->pos_fb);
+    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt))
+        report_error("joint %d amplifier fault (position %.5f)", j, jt->pos_fb);
+    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt))
+        report_error("joint %d following error (%.5f, limit %.5f)", j, jt->ferror, jt->ferror_limit);
 }
 
 void phase_faults(struct motion *m)

@@ -162,6 +162,7 @@ struct motion {
     double joint_acc_scale[EMCMOT_MAX_JOINTS]; /* wheel jog's fraction, else 1 */
     int joint_violated[EMCMOT_MAX_JOINTS];     /* soft limit message given */
     int eoffset_limited;
+    EmcPose queue_end;         /* of the last move that was queued */
     EmcPose path_was;          /* the planner's position of the cycle before */
     int jog_was_active;
     char wait_atspeed_told;
@@ -287,6 +288,10 @@ int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets);
 void axis_step_within(simple_tp_t *tp, double lo, double hi, double T);
 /* Where a planner may still get to when it stops now. */
 struct axis_reach axis_reach_of(const simple_tp_t *tp, double T);
+
+/* range.c: 1 when a point, or an arc from the end of the queue, is within the limits; else reported. */
+int in_range(struct motion *m, const EmcPose *pos, int id, const char *kind);
+int arc_in_range(struct motion *m, const emcmot_command_t *c);
 
 /* jog.c */
 void joint_stop(struct motion *m, int j, int immediate);

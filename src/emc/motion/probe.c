@@ -53,7 +53,7 @@ static void unexpected_contact(struct motion *m)
             }
             continue;
         }
-        if (!m->config_work.inhibit_probe_jog_error && m->joint[j].free_tp.enable) {
+        if (!m->config_work.inhibit_probe_jog_error && m->joint[j].free_tp.enable && m->joint[j].free_tp.active) {
             joint_stop(m, j, 0);
             jogging = 1;
         }

@@ -16,7 +16,7 @@ END
 }
 trap 'rm -f machine.tmp.hal' EXIT
 all() { list "num_joints=2 num_extrajoints=1 num_spindles=1 unlock_joints_mask=2 num_misc_error=1 names_dout=a,b names_din=x,y,z num_aio=1"; }
-all | grep -vE ' axis\.[^xw]|__|YES .*thread'
+all | grep -vE '^homemod|^$| axis\.[^xw]|__|YES .*thread'
 echo "== axes"
 all | grep -oE ' axis\.[a-z]\.eoffset$'
 echo "== the greatest"
