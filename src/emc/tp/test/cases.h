@@ -16,8 +16,10 @@
 struct test_case {
     const char *name;
     void (*run)(void);
+    int jerk; /* run again with limits of jerk */
 };
-#define CASE(f) { #f, f }
+#define CASE(f) { #f, f, 0 }
+#define CASE_JERK(f) { #f, f, 1 }
 
 static struct bench b;
 static int broken;
@@ -40,9 +42,11 @@ static inline void mill_with(double v, double a, double j)
     bench_start(&b, j > 0);
 }
 
+static double jerk_of_acc; /* of mill(), 1/s; 0 none */
+
 static inline void mill(double v, double a)
 {
-    mill_with(v, a, 0);
+    mill_with(v, a, jerk_of_acc * a);
 }
 
 static inline void limits_kept(void)
@@ -73,19 +77,27 @@ static inline uint64_t finish(uint64_t limit)
 }
 
 /* Runs all cases, or the one named; a line each, exit status 1 when a promise is broken. */
-#define CASES_MAIN                                                          \
-    int main(int argc, char **argv)                                         \
-    {                                                                       \
-        int failed = 0;                                                     \
-        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {         \
-            if (argc > 1 && strcmp(argv[1], cases[i].name)) continue;       \
-            bench_verbose = argc > 1;                                       \
-            broken = 0;                                                     \
-            cases[i].run();                                                 \
-            printf("%s %s\n", broken ? "FAIL" : "ok", cases[i].name);       \
-            failed += broken != 0;                                          \
-        }                                                                   \
-        return failed != 0;                                                 \
+static inline int run_cases(const struct test_case *cases, size_t count, const char *only)
+{
+    int failed = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (only && strcmp(only, cases[i].name)) continue;
+        bench_verbose = only != NULL;
+        for (int jerk = 0; jerk <= cases[i].jerk; jerk++) {
+            jerk_of_acc = jerk ? 30 : 0;
+            broken = 0;
+            cases[i].run();
+            printf("%s %s%s\n", broken ? "FAIL" : "ok", cases[i].name, jerk ? " with limits of jerk" : "");
+            failed += broken != 0;
+        }
+    }
+    return failed != 0;
+}
+
+#define CASES_MAIN                                                                                    \
+    int main(int argc, char **argv)                                                                   \
+    {                                                                                                 \
+        return run_cases(cases, sizeof cases / sizeof *cases, argc > 1 ? argv[1] : NULL);             \
     }
 
 #endif
