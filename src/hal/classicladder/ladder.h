@@ -121,8 +121,8 @@ struct expression {
 
 struct step {
     int32_t used, initial, number, page, x, y;
-    int32_t active;
-    int64_t active_ms;
+    int32_t active, shown;      /* shown: %X and %X.V, as of the last pass over the page */
+    int64_t active_ms, shown_ms;
 };
 struct transition {
     int32_t used, page, x, y;

@@ -136,7 +136,8 @@ void ladder_reset(struct ladder *l)
     }
     for(i = 0; i < STEPS; i++) {
         l->step[i].active = l->step[i].used && l->step[i].initial;
-        l->step[i].active_ms = 0;
+        l->step[i].shown = 0;
+        l->step[i].active_ms = l->step[i].shown_ms = 0;
     }
 }
 
@@ -219,8 +220,8 @@ int ladder_read(const struct ladder *l, int type, int number)
     case VAR_TM_Q: return tm ? tm->output : 0;
     case VAR_TM_P: return tm ? tm->preset : 0;
     case VAR_TM_V: return tm ? tm->value : 0;
-    case VAR_X: x = step_number(l, number); return x ? x->active : 0;
-    case VAR_X_V: x = step_number(l, number); return x ? (int)(x->active_ms / 1000) : 0;
+    case VAR_X: x = step_number(l, number); return x ? x->shown : 0;
+    case VAR_X_V: x = step_number(l, number); return x ? (int)(x->shown_ms / 1000) : 0;
     default: return 0;
     }
 }

@@ -116,6 +116,12 @@ static void monostable(struct ladder *l, struct rung *r, const struct cell *c, i
     set_outputs(r, x, y, m->running, 0, -1);
 }
 
+static void set_count(struct counter *k, int value)
+{
+    k->previous = k->value;
+    k->value = value;
+}
+
 static void counter(struct ladder *l, struct rung *r, const struct cell *c, int x, int y)
 {
     int reset = input(r, x - 1, y), preset = input(r, x - 1, y + 1), up = input(r, x - 1, y + 2);
@@ -123,13 +129,12 @@ static void counter(struct ladder *l, struct rung *r, const struct cell *c, int 
     struct counter *k;
     if(c->var.number < 0 || c->var.number >= l->sizes.counters) return;
     k = &LADDER(l, counters, struct counter)[c->var.number];
-    k->previous = k->value;
-    if(up && !k->up) k->value = k->value >= COUNTER_MAX ? 0 : k->value + 1;
-    if(down && !k->down) k->value = k->value <= 0 ? COUNTER_MAX : k->value - 1;
+    if(up && !k->up) set_count(k, k->value >= COUNTER_MAX ? 0 : k->value + 1);
+    if(down && !k->down) set_count(k, k->value <= 0 ? COUNTER_MAX : k->value - 1);
     k->up = up;
     k->down = down;
-    if(preset) k->value = k->preset;
-    if(reset) k->value = 0;
+    if(preset) set_count(k, k->preset);
+    if(reset) set_count(k, 0);
     k->done = k->value == k->preset;
     k->empty = k->value == COUNTER_MAX && k->previous == 0;
     k->full = k->value == 0 && k->previous == COUNTER_MAX;

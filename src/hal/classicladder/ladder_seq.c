@@ -52,4 +52,10 @@ void ladder_sequential(struct ladder *l, int page, int ms)
             changed = 1;
         }
     }
+    for(i = 0; i < STEPS; i++) {
+        struct step *s = &l->step[i];
+        if(!s->used || s->page != page) continue;
+        s->shown = s->active;
+        s->shown_ms = s->active_ms;
+    }
 }

@@ -57,6 +57,10 @@ def rungs() -> list[dict[tuple[int, int], str]]:
         {(0, 0): "1-0-30/1", **line(1, 9), (9, 0): "50-0-60/12"},                    # 15 step 1 of the chart
         {(0, 0): "1-0-0/0[200/0]", **line(1, 9), (9, 0): "50-0-60/13"},              # 16 indexed bit
         {(0, 0): "9-0-0/0", **line(1, 7), (7, 0): "99-0-0/0", (8, 0): "99-0-0/0", (9, 0): "60-0-0/2"},   # 17
+        {(0, 0): "1-0-30/0", **line(1, 9), (9, 0): "50-0-60/14"},                    # 18 step 0 of the chart
+        {(0, 0): "1-0-50/2", (0, 3): "1-0-50/0", (1, 0): "99-0-0/0", (2, 0): "12-0-0/1",
+         **{(x, y): "99-0-0/0" for x in (1, 2) for y in (1, 2, 3)},
+         **line(3, 9), (9, 0): "50-0-60/15"},                                        # 19 counter, empty output
     ]
 
 
@@ -94,6 +98,7 @@ class Model:
         self.i0 = 0
         self.rest = 0                   # ms of a unit of the timer; outlives a restart
         self.latch = self.ton = self.mono = self.mono_value = self.count = self.index_bits = 0
+        self.begun = self.down = self.down_before = 0
         self.step = self.b5 = self.steps_word = self.call = 0
 
     def scan(self, i0: int, i1: int, i2: int, w: int) -> list[int]:
@@ -115,6 +120,10 @@ class Model:
             self.count += 1
         if i1:
             self.count = 0
+        if rising:
+            self.down, self.down_before = (self.down or 10000) - 1, self.down
+        if i2:
+            self.down, self.down_before = 0, self.down
         half = (w + 16) / 3
         quotient = int(half)                            # toward zero
         qw0 = ((quotient - 65) & 255) | 1
@@ -122,7 +131,9 @@ class Model:
         if i2:
             self.call = 1
         out = [i0, i0, rising, falling, self.latch, i0 or i1, ton, self.mono, self.count == 3,
-               w * 2 + 1 > max(7, w), copied, self.call, self.step == 1, 0]
+               w * 2 + 1 > max(7, w), copied, self.call, self.step == 1, 0, self.begun and self.step == 0,
+               self.down == 9999 and self.down_before == 0]
+        self.begun = 1          # steps show from the first pass over the chart on
         self.steps_word += 1
         if self.step == 0 and i1:
             self.step = 1
@@ -144,10 +155,10 @@ def main() -> int:
         path = Path(folder) / "project.clp"
         path.write_text(project())
         inputs = [(f"classicladder.0.in-{n:02d}", "bit") for n in range(3)] + [("classicladder.0.s32in-00", "s32")]
-        outputs = [(f"classicladder.0.out-{n:02d}", "bit") for n in range(14)]
+        outputs = [(f"classicladder.0.out-{n:02d}", "bit") for n in range(16)]
         outputs += [(f"classicladder.0.s32out-{n:02d}", "s32") for n in range(2)]
         rows = [" ".join(map(str, stimulus(k))) for k in range(CYCLES)]
-        part = Part(f"classicladder_rt\nloadusr -w classicladder --nogui {path}", [], ["classicladder.0.refresh"],
+        part = Part(f"classicladder_rt numPhysOutputs=16\nloadusr -w classicladder --nogui {path}", [], ["classicladder.0.refresh"],
                     inputs, outputs, rows)
         samples = Session().run([part])[0]
     model, mistakes = Model(), 0
