@@ -91,6 +91,19 @@ for n in range(60):
 a.say("SET ABORT")
 sleep(1)
 print("still here:", b.say("SET MODE MANUAL"), len(b.say("GET CLIENTS")), server.process.poll())
+print("== one that asks and never listens is dropped")
+deaf = Client(server)
+deaf.socket.setblocking(False)
+sent = 0
+while True:
+    try:
+        sent += deaf.socket.send(b"HELP GET\n" * 1000)
+    except BlockingIOError:
+        if b.say("GET ECHO") != ["ECHO OFF"]:
+            print("the others wait")
+    except OSError:
+        break
+print("dropped", b.say("GET ECHO"), server.process.poll())
 print("== a jog ends with the client that began it, others' jogs go on")
 c.mode(MODE_MANUAL)
 c.wait_complete()

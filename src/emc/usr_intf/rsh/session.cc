@@ -27,6 +27,7 @@ namespace rsh {
 
 constexpr int64_t MS = 1'000'000;
 constexpr size_t MAX_LINE = 4096; // bytes; half a command is never executed
+constexpr size_t MAX_LINES = 1000, MAX_OUTPUT = 1'000'000; // lines that wait, bytes of unread answers
 
 std::string upper(std::string s) {
     for (char &c : s) c = static_cast<char>(toupper(static_cast<unsigned char>(c)));
@@ -390,7 +391,7 @@ void Server::run(const volatile int *stop) {
         int64_t timeout = 200 * MS, now = kerf_clock_now_ns();
         for (auto &s : sessions) {
             short events = 0;
-            if (!s.second->input_ended) events |= POLLIN | POLLPRI;
+            if (!s.second->input_ended && s.second->lines_waiting() < MAX_LINES) events |= POLLIN | POLLPRI;
             if (!s.second->output.empty()) events |= POLLOUT;
             fds.push_back({events ? s.first : -1, events, 0}); // one that has ended its input and gets nothing has no news
             ids.push_back(s.first);
@@ -428,6 +429,11 @@ void Server::run(const volatile int *stop) {
             if (s.waiting()) s.poll_waiting();
             if (!s.waiting() && !s.closing && !shutdown && s.has_line()) s.next_line();
             if (s.input_ended && !s.waiting() && !s.has_line()) s.closing = true;
+            if (s.output.size() > MAX_OUTPUT) {
+                info(s.client + " does not read its answers; dropped");
+                s.output.clear();
+                s.closing = true;
+            }
         }
         for (auto it = sessions.begin(); it != sessions.end();) {
             Session &s = *it->second;

@@ -49,6 +49,7 @@ public:
 
     void input(const char *data, size_t n);
     bool has_line() const { return !lines_.empty(); }
+    size_t lines_waiting() const { return lines_.size(); }
     void next_line();     // takes one line and does it
     void poll_waiting();  // looks whether the command under way is done
     bool waiting() const { return waiting_ != nullptr; }
