@@ -16,7 +16,8 @@
 #define RIPEN_GRADE 0.25   /* growth of cells away from the ends of a piece */
 #define SPLIT 0.15         /* share of acceleration that a cell may lose to changing curvature; */
 #define LOSS_SHARE 0.6     /* of acceleration in use, before that counts */
-#define SPLITS 3           /* it is halved up to so many times */
+#define ROUND_PARTS 2      /* pieces of half a rounding, before they are halved */
+#define SPLITS 4           /* it is halved up to so many times */
 #define KIN_SPLITS 6       /* and where joints are sampled */
 #define KIN_STEP 16.0      /* units, deg: longest cell there */
 #define CELLS_CYCLE 40     /* the speed is capped so that so many cells in a row last a cycle */
@@ -336,7 +337,7 @@ static int cut_piece(struct traj *tj, int *samples)
             if (join_reach(q) <= 0 || hi <= a + tiny || lo >= end) continue;
             if (lo > a + tiny) {
                 if (q->solo || !rounded) end = fmin(end, lo);
-                else if (q->w > 0) step = fmin(step, fmax(lo - a, q->w / 4));
+                else if (q->w > 0) step = fmin(step, fmax(lo - a, q->w / ROUND_PARTS));
                 continue;
             }
             if (q->solo) end = fmin(end, hi);
@@ -346,7 +347,7 @@ static int cut_piece(struct traj *tj, int *samples)
             }
             if (q->w > 0) {
                 rounded = 1;
-                step = fmin(step, q->w / 4);
+                step = fmin(step, q->w / ROUND_PARTS);
             } else {
                 share = KINK_SHARE;
                 cap = fmin(cap, q->kink_b);
