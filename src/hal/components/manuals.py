@@ -25,7 +25,8 @@ GROUPS = {
     "Gates and bits": """and2 or2 xor2 not logic lut5 maj3 match8 select8 tristate_bit tristate_float flipflop
         bitmerge bitslice bitwise bin2gray gray2bin demux output_buffer""",
     "Buttons, switches and messages": """radiobutton multiswitch toggle toggle2nist momentary2nist multiclick
-        matrix_kb sim_matrix_kb enum debounce dbounce message pushmsg lcd mqtt-publisher reset sample_hold knob2float updown
+        matrix_kb sim_matrix_kb enum debounce dbounce message pushmsg lcd mqtt-publisher reset sample_hold
+        knob2float updown
         xhc_hb04_util joyhandle hal_input sendkeys""",
     "Safety": "estop_latch safety_latch charge_pump watchdog joint_axis_mapper",
     "Arithmetic": """abs abs_s32 abs_s64 sum2 mult2 div2 invert scale offset hypot scaled_s32_sums weighted_sum
@@ -40,7 +41,8 @@ GROUPS = {
     "Pulses and encoders": "stepgen pwmgen siggen encoder counter encoder_ratio",
     "Spindles and tools": "spindle gearchange spindle_monitor orient carousel boss_plc",
     "Joints and axes": "homemod gantry anglejog eoffset_per_angle moveoff z_level_compensation",
-    "Simulation and tests": """sim-torch sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_joint sim_parport sphereprobe
+    "Simulation and tests": """sim-torch sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_joint
+        sim_parport sphereprobe
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",

@@ -100,7 +100,8 @@ def encoder() -> None:
             turn = math.floor(phase)
             a, b = ((0, 0), (1, 0), (1, 1), (0, 1))[turn & 3]
             rows.append(f"{a} {b} {turn % 40 == 0:d} {k == 30:d} {k == 20:d} {k in (10, 40):d}")
-    part = Part("encoder num_chan=1\nloadrt tristate_bit\nloadrt not", [("encoder.0.position-scale", 40), ("tristate-bit.0.in", 1)],
+    part = Part("encoder num_chan=1\nloadrt tristate_bit\nloadrt not",
+                [("encoder.0.position-scale", 40), ("tristate-bit.0.in", 1)],
                 ["tristate-bit.0", "encoder.update-counters"],
                 [("encoder.0.phase-A", "bit"), ("encoder.0.phase-B", "bit"), ("encoder.0.phase-Z", "bit"),
                  ("encoder.0.reset", "bit"), ("encoder.0.latch-input", "bit"), ("tristate-bit.0.enable", "bit")],
