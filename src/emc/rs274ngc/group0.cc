@@ -20,16 +20,26 @@ double wrap_360(double angle)
 
 } // namespace
 
+// Indexers move alone, before the others.
+static void home_leg(Setup &s, const EmcPose &end)
+{
+    for (int n = 0; n < 3; ++n) {
+        const int ax = AX_A + n;
+        if (s.indexer_joint[n] < 0 || axis(end, ax) == axis(s.current, ax)) continue;
+        EmcPose alone = s.current;
+        axis(alone, ax) = axis(end, ax);
+        move_indexer(s, line_of(s), n, alone);
+    }
+    traverse(s, line_of(s), end);
+}
+
 int convert_home(Setup &s, int g)
 {
     const Block &b = s.block;
     CHECK(s.comp_on(), "Cannot use g28 or g30 with cutter radius comp");
     EmcPose end;
     TRY(find_ends(s, b, &end));
-    // Indexers may move only alone, so they are left for the second part.
-    for (int n = 0; n < 3; ++n)
-        if (s.indexer_joint[n] >= 0) axis(end, AX_A + n) = axis(s.current, AX_A + n);
-    traverse(s, line_of(s), end);
+    home_leg(s, end);
 
     const int base = g == G_28 ? P_G28 : P_G30;
     EmcPose home{};
@@ -48,14 +58,7 @@ int convert_home(Setup &s, int g)
         if (!s.wrapped[n] || axis(end, ax) == axis(s.current, ax)) continue;
         axis(end, ax) = axis(s.current, ax) + wrap_360(axis(end, ax) - axis(s.current, ax));
     }
-    for (int n = 0; n < 3; ++n) {
-        const int ax = AX_A + n;
-        if (s.indexer_joint[n] < 0 || axis(end, ax) == axis(s.current, ax)) continue;
-        EmcPose alone = s.current;
-        axis(alone, ax) = axis(end, ax);
-        move_indexer(s, line_of(s), n, alone);
-    }
-    traverse(s, line_of(s), end);
+    home_leg(s, end);
     return INTERP_OK;
 }
 
