@@ -48,14 +48,14 @@ proc state {condition args} {
     foreach w $args {
         if {[llength $w] > 1} {
             lassign $w menu label
-            $menu entryconfigure [::axis::entry $menu [_ $label]] -state $value
+            $menu entryconfigure [::axis::menu_entry $menu [_ $label]] -state $value
         } elseif {[winfo exists $w] && [$w cget -state] ne $value} {
             $w configure -state $value
         }
     }
 }
 
-proc ::axis::entry {menu label} {
+proc ::axis::menu_entry {menu label} {
     set wanted [lindex [::axis::split_accel $label] 0]
     for {set i 0} {$i <= [$menu index end]} {incr i} {
         if {[$menu type $i] ni {separator tearoff} && [$menu entrycget $i -label] eq $wanted} { return $i }

@@ -1,0 +1,474 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The AXIS screen: start-up in the documented order, modes, offsets, overrides."""
+
+import gettext
+import os
+import subprocess
+import sys
+import threading
+import time
+import tkinter as tk
+import traceback
+
+import linuxcnc
+from kerf import clock
+from kerf.tree import Tree
+
+from . import dialogs, program
+from .follow import FollowPart
+from .jog import speed
+from .opening import OpeningPart
+from .pins import PinsPart
+from .prefs import Preferences
+from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
+from .touchoff import Checker, brackets, scale_text, unit_text
+from .usercode import UserPart
+from .variables import Variables
+from .window import WindowPart
+
+STATUS_TRIES = 9
+MAXVEL_QUIET_S = 1.0     # after an own change the slider does not follow the status
+NO_STATUS = ("A configuration error is preventing LinuxCNC from starting.\n"
+             "More information may be available when running from a terminal.")
+
+
+class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
+    """One screen."""
+
+    def __init__(self, root, ini_path):
+        self.root = root
+        self.ini = linuxcnc.ini(ini_path)
+        self.settings = read(self.ini)
+        self.settings.ini_path = ini_path
+        self.stat, self.command = linuxcnc.stat(), linuxcnc.command()
+        self.errors = linuxcnc.error_channel()
+        self.wait_for_status()
+        self.prefs = Preferences()
+        self.vars = Variables(root)
+        self.translate = gettext.translation("linuxcnc", Tree.find().share / "locale", fallback=True).gettext
+        self.jog_invert = self.settings.jog_invert()
+        self.loaded_file = self.shown_file = None
+        self.is_filtered = self.loading = self.cancel_loading = False
+        self.joints_shown = None
+        self.last_increment = None
+        self.maxvel_quiet_until = 0.0
+        self.own_values = {}
+        self.children = []
+        self.panel = None
+        self.widget_signs = {}
+        self.loader = program.Loader(self.settings)
+        self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
+        self.user = {}
+        self.last_state = None
+        self.build()
+
+    def wait_for_status(self):
+        """Until task has told the number of joints. Raises SettingsError."""
+        wait = 0.01
+        for _ in range(STATUS_TRIES):
+            try:
+                self.stat.poll()
+                if self.stat.joints and self.stat.kinematics_type >= linuxcnc.KINEMATICS_IDENTITY:
+                    return
+            except linuxcnc.error:
+                pass
+            clock.sleep(wait)
+            wait *= 2
+        raise SettingsError(NO_STATUS)
+
+    # -- guards ----------------------------------------------------------------------------
+
+    def guarded(self, function):
+        """The function for Tcl: what goes wrong is shown to the operator, never a traceback on the screen."""
+        def call(*args):
+            try:
+                result = function(*args)
+                return "" if result is None else result
+            except linuxcnc.error as e:
+                self.notifications.add("error", str(e))
+            except tk.TclError:
+                if self.root.children:
+                    raise
+            except Exception as e:
+                traceback.print_exc()
+                self.notifications.add("error", f"{type(e).__name__}: {e}")
+            return ""
+        return call
+
+    def running(self):
+        self.stat.poll()
+        return self.stat.task_mode in (linuxcnc.MODE_AUTO, linuxcnc.MODE_MDI) and self.stat.interp_state != linuxcnc.INTERP_IDLE
+
+    def manual_ok(self):
+        """Commands by hand are possible: the machine is on and idle, or MDI has room in its queue."""
+        self.stat.poll()
+        s = self.stat
+        if s.task_state != linuxcnc.STATE_ON:
+            return False
+        return s.interp_state == linuxcnc.INTERP_IDLE or \
+            (s.task_mode == linuxcnc.MODE_MDI and s.queued_mdi_commands < self.vars.max_queued_mdi_commands.get())
+
+    def jog_allowed(self):
+        return self.manual_ok() and not self.running() and self.raised_tab() == "manual" and \
+            self.ensure_mode(linuxcnc.MODE_MANUAL)
+
+    def ensure_mode(self, mode, *others):
+        """Brings task into the mode; True when it is there (or in one of the others)."""
+        self.stat.poll()
+        if self.stat.task_mode == mode or self.stat.task_mode in others:
+            return True
+        if self.running():
+            return False
+        self.command.mode(mode)
+        self.command.wait_complete()
+        self.stat.poll()
+        return self.stat.task_mode == mode
+
+    def set_motion_teleop(self, value):
+        """Joint (0) or axis (1) motion."""
+        self.stat.poll()
+        teleop = self.stat.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
+        if bool(value) != teleop:
+            self.command.teleop_enable(int(value))
+            self.command.wait_complete()
+            self.stat.poll()
+
+    def all_homed(self):
+        self.stat.poll()
+        return all(self.stat.homed[:self.settings.joints])
+
+    def any_homing(self):
+        self.stat.poll()
+        if any(j["homing"] for j in self.stat.joint[:self.settings.joints]):
+            print("axis: a joint is homing: wait for its end")
+            return True
+        return False
+
+    def confirm_rehome(self, text):
+        return dialogs.ask(self.root, self.translate("Warning"), text, "warning", 0, self.translate("Ok"),
+                           self.translate("Cancel"), escape=1) == 0
+
+    def go_home(self, n):
+        self.root.tk.call("home_joint_number", n)
+
+    # -- units -----------------------------------------------------------------------------
+
+    def to_display(self, value):
+        """Length from machine units to the units shown."""
+        mm = value / self.settings.units_per_mm
+        return mm if self.vars.metric.get() else mm / MM_PER_INCH
+
+    def to_machine(self, value):
+        return (value if self.vars.metric.get() else value * MM_PER_INCH) * self.settings.units_per_mm
+
+    def units_changed(self):
+        tcl = self.root.tk
+        unit = "mm/min" if self.vars.metric.get() else "in/min"
+        for w in ("jogspeed", "maxvel"):
+            tcl.call(f".pane.top.{w}.l1", "configure", "-text", unit)
+        tcl.call(".pane.top.ajogspeed.l1", "configure", "-text", self.translate("deg/min"))
+        for kind in ("jog", "maxvel"):
+            self.slider(kind, None, send=False)
+
+    # -- sliders ---------------------------------------------------------------------------
+
+    def slider(self, kind, value, send=True):
+        v, s = self.vars, self.settings
+        name, shown, top = {"jog": ("jog_slider_val", v.jog_speed, s.max_linear), "ajog": ("ajog_slider_val", v.jog_aspeed, s.max_angular),
+                            "maxvel": ("maxvel_slider_val", v.maxvel_speed, s.max_velocity)}[kind]
+        x = float(getattr(v, name).get() if value is None else value)
+        if 0 < x < 0.06:
+            x = 0.06
+        units = speed(x, top)
+        if kind != "ajog":
+            units = self.to_display(units)
+        digits = max(0, 3 - len(str(int(units))))
+        shown.set(round(units, digits) if digits else int(round(units)))
+        if kind == "maxvel" and send:
+            self.set_maxvel(self.to_machine(units) / 60)
+
+    def set_maxvel(self, units_per_s):
+        self.maxvel_quiet_until = time.monotonic() + MAXVEL_QUIET_S
+        self.command.maxvel(units_per_s)
+
+    def step_slider(self, name, direction):
+        variable = getattr(self.vars, name)
+        variable.set(min(1.0, max(0.0, round(variable.get() + 0.02 * direction, 3))))
+        self.slider(name.split("_")[0], variable.get())
+
+    def set_override(self, name, percent):
+        send = {"feedrate": self.command.feedrate, "rapidrate": self.command.rapidrate, "spindlerate": self.command.spindleoverride}
+        self.own_values[name] = (percent, time.monotonic() + 0.5)
+        self.vars.put(name, percent)
+        send[name](percent / 100.0)
+
+    def digit(self, number, is_grave):
+        if self.joints_shown:
+            if number < self.settings.joints and self.manual_ok():
+                self.activate_ja_widget(str(number), True)
+        elif is_grave:
+            self.set_override("feedrate", 0)
+        else:
+            percent = 10 * number if number else 100
+            self.set_override("feedrate", min(percent, int(100 * self.settings.max_feed_override + .5)))
+
+    # -- increments ------------------------------------------------------------------------
+
+    def increments(self):
+        return [self.translate("Continuous"), *self.settings.increments]
+
+    def next_increment(self, direction):
+        if self.jogger.running:
+            return
+        all_, now = self.increments(), self.vars.jogincrement.get()
+        index = all_.index(now) if now in all_ else 0
+        if index == 0 and direction > 0 and self.last_increment in all_[1:]:
+            index = all_.index(self.last_increment)
+        else:
+            index = min(len(all_) - 1, max(0 if direction > 0 else 1, index + direction))
+        self.vars.jogincrement.set(all_[index])
+        self.increment_chosen()
+
+    def continuous(self):
+        if not self.jogger.running:
+            self.vars.jogincrement.set(self.translate("Continuous"))
+            self.increment_chosen()
+
+    def increment_chosen(self, *args):
+        if self.vars.jogincrement.get() != self.translate("Continuous"):
+            self.last_increment = self.vars.jogincrement.get()
+        self.set_pin("jog.increment", self.jogger.distance())
+
+    # -- selection -------------------------------------------------------------------------
+
+    def activate_ja_widget(self, name, force=False):
+        self.vars.ja_rbutton.set(str(name).lower())
+        self.show_selected()
+
+    def show_selected(self):
+        chosen = self.vars.ja_rbutton.get()
+        for c in LETTERS.lower():
+            self.set_pin(f"jog.{c}", c == chosen)
+
+    def jog_target(self, place):
+        """Letter or joint number of a jog key."""
+        order = self.settings.jog_order()
+        if self.joints_shown and not self.settings.lathe:
+            return str(place) if place < self.settings.joints else None
+        return order[place].lower() if place < len(order) else None
+
+    def selected_joint(self):
+        chosen = self.vars.ja_rbutton.get()
+        if chosen.isdigit():
+            return int(chosen)
+        letter = chosen.upper()
+        if self.stat.kinematics_type != linuxcnc.KINEMATICS_IDENTITY or self.settings.coordinates.count(letter) != 1:
+            return None
+        return self.settings.joint_of(letter)
+
+    # -- tabs ------------------------------------------------------------------------------
+
+    def raised_tab(self):
+        return str(self.root.tk.call(".pane.top.tabs", "raise"))
+
+    def raise_tab(self, name):
+        self.root.tk.call(".pane.top.tabs", "raise", name)
+        if name == "mdi":
+            self.widgets.mdi_command.focus_set()
+            self.widgets.mdi_command.selection_range(0, "end")
+        else:
+            self.root.focus_set()
+
+    def other_tab(self):
+        self.raise_tab("mdi" if self.raised_tab() == "manual" else "manual")
+
+    def tab_raised(self, *args):
+        if hasattr(self, "jogger"):
+            self.jogger.stop_all()
+            if self.raised_tab() == "manual" and hasattr(self, "commands"):
+                self.TclCommands.ensure_manual()
+
+    def next_tab(self):
+        pages = [str(p) for p in self.root.tk.splitlist(self.root.tk.call(".pane.top.right", "pages"))]
+        now = str(self.root.tk.call(".pane.top.right", "raise"))
+        self.root.tk.call(".pane.top.right", "raise", pages[(pages.index(now) + 1) % len(pages)])
+
+    def add_tab(self, name, text):
+        """A new page of the right notebook; returns the path of its frame."""
+        self.root.tk.call(".pane.top.right", "insert", "end", name, "-text", text)
+        return self.root.tk.call(".pane.top.right", "getframe", name)
+
+    def show_panel(self):
+        if self.panel is not None:
+            if self.vars.show_pyvcppanel.get():
+                self.panel.grid()
+            else:
+                self.panel.grid_remove()
+
+    def toggle_panel(self):
+        self.vars.show_pyvcppanel.set(not self.vars.show_pyvcppanel.get())
+        self.show_panel()
+
+    def lathe_view(self):
+        return "y2" if self.settings.back_tool_lathe else "y"
+
+    # -- offsets ---------------------------------------------------------------------------
+
+    def mdi_lines(self, *lines):
+        """Runs MDI lines one after the other and waits for each."""
+        if not self.manual_ok() or not self.ensure_mode(linuxcnc.MODE_MDI):
+            return False
+        for line in lines:
+            self.command.mdi(line)
+            self.command.wait_complete()
+        return True
+
+    def touch_off(self, tool, value=None):
+        s, _ = self.settings, self.translate
+        letter = self.vars.ja_rbutton.get().upper()
+        if not self.manual_ok() or letter not in s.axes or (tool and self.stat.tool_in_spindle <= 0):
+            return
+        before = self.stat.task_mode
+        metric = bool(self.vars.metric.get())
+        actual = s.find(f"AXIS_{letter}", "TOUCHOFF_ACTUAL")
+        if value is None:
+            title = f"Tool {self.stat.tool_in_spindle} TouchOff" if tool else _("Touch Off (system)") if actual is None \
+                else _("Touch Off (system ACTUAL)")
+            var = os.path.join(self.loader.folder, "touchoff.var")
+            dialog = dialogs.Touchoff(self.root, title, _("Enter %s coordinate relative to workpiece:") % letter, 0.0,
+                                      unit_text(letter, s, self.stat, metric), Checker(s, var),
+                                      None if tool else self.vars.touch_off_system.get())
+            answer = dialog.wait(dialog.entry)
+            if answer is None:
+                return
+            value = answer[0]
+            if answer[1]:
+                self.vars.touch_off_system.set(answer[1])
+        elif brackets(value):
+            return
+        scale = scale_text(letter, s, self.stat, metric)
+        if tool:
+            form = 11 if self.vars.tto_g11.get() else 10
+            done = self.mdi_lines(f"G10 L{form} P{self.stat.tool_in_spindle} {letter.lower()}[[{value}]*{scale}]", "G43")
+        else:
+            if actual is not None:
+                at = self.stat.actual_position[LETTERS.index(letter)]
+                value = str(float(value) - at if actual.upper() == "MINUS" else float(value) + at)
+            done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get()} {letter.lower()}[[{value}]*{scale}]")
+        if done:
+            self.ensure_mode(before)
+            self.set_motion_teleop(1)
+            self.reload_file(False)
+
+    def custom_grid(self):
+        dialog = dialogs.Touchoff(self.root, self.translate("Custom Grid"), self.translate("Enter grid size"), "", "", self.grid_value)
+        answer = dialog.wait(dialog.entry)
+        if answer is not None:
+            self.TclCommands.set_grid_size(self.grid_value(answer[0])[0])
+
+    def grid_value(self, text):
+        try:
+            default = "" if text.strip()[-1:].isalpha() else "mm" if self.vars.metric.get() else "in"
+            return parse_increment(text + default, 1.0) / MM_PER_INCH, None
+        except ValueError:
+            return None, self.translate("Enter a length, for example 10mm or 1/2in")
+
+    # -- spindle ---------------------------------------------------------------------------
+
+    def spindle(self, direction):
+        if not self.manual_ok() or not self.ensure_mode(linuxcnc.MODE_MANUAL):
+            return
+        if direction == 0:
+            self.command.spindle(linuxcnc.SPINDLE_OFF)
+        else:
+            self.command.spindle(linuxcnc.SPINDLE_FORWARD if direction > 0 else linuxcnc.SPINDLE_REVERSE,
+                                 self.settings.default_spindle_speed)
+
+    def spindle_turns(self):
+        self.stat.poll()
+        return self.stat.spindle[0]["direction"] != 0
+
+    def show(self):
+        self.root.deiconify()
+        try:
+            self.root.tk.call("send", "popimage", "destroy", ".")
+        except tk.TclError:
+            pass
+
+    def confirm_close(self):
+        if dialogs.ask(self.root, self.translate("Confirm Close"), self.translate("Do you really want to close LinuxCNC?"), "warning", 1,
+                       self.translate("Yes"), self.translate("No"), escape=1) == 0:
+            self.root.destroy()
+
+    # -- life ------------------------------------------------------------------------------
+
+    def start(self, first_file):
+        """Everything after the widgets, in the documented order."""
+        self.command.set_block_delete(self.vars.block_delete.get())
+        self.command.set_optional_stop(self.vars.optional_stop.get())
+        self.make_pins()
+        self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)
+        self.logging.start()
+        self.activate_ja_widget(self.settings.coordinates[0])
+        self.show_title()
+        initial = first_file or os.environ.get("AXIS_OPEN_FILE") or (self.settings.find("DISPLAY", "OPEN_FILE") or "").strip('"')
+        self.preview.camera.set_view(self.lathe_view() if self.settings.lathe else "p")
+        for name in ("feedrate", "rapidrate", "spindlerate"):
+            self.set_override(name, 100)
+        for words in self.ini.findall("DISPLAY", "TKPKG") or []:
+            self.root.tk.eval(f"package require {words}")
+        for path in self.ini.findall("DISPLAY", "TKAPP") or []:
+            self.root.tk.call("source", path)
+        self.hide_unconnected()
+        self.run_user_file()
+        self.finish_pins()
+        self.start_tabs()
+        self.command.teleop_enable(0)
+        self.command.wait_complete()
+        self.exit_status = 0
+        self.update()
+        self.poll_errors()
+        self.wait_for_children(self.postgui)
+        if initial and os.path.isfile(initial):
+            self.root.after(50, lambda: self.open_file_guts(initial))
+
+    def close(self):
+        self.logger.stop()
+        self.loader.close()
+        for child, line in self.children:
+            if "loadusr" not in line and child.poll() is None:
+                child.terminate()
+        if getattr(self, "comp", None) is not None:
+            self.comp.exit()
+
+
+def main(argv):
+    if len(argv) < 2 or argv[0] != "-ini":
+        print("-ini must be first argument")
+        return 1
+    ini_path, rest = os.path.abspath(argv[1]), [a for a in argv[2:]]
+    if rest[:1] == ["-d"]:
+        rest = rest[2:]
+    if not os.environ.get("DISPLAY"):
+        print("axis: no display (DISPLAY is not set)")
+        return 1
+    root = tk.Tk(className="Axis", baseName="axis")
+    root.withdraw()
+    for user in ("gdm", "root"):
+        try:
+            subprocess.run(["xhost", f"-SI:localuser:{user}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        except OSError:
+            break
+    try:
+        app = App(root, ini_path)
+    except (SettingsError, linuxcnc.error) as e:
+        print(f"axis: {ini_path}: {e}", file=sys.stderr)
+        return 1
+    for warning in app.settings.warnings:
+        print(f"axis: {warning}")
+    try:
+        app.start(os.path.abspath(rest[0]) if rest else None)
+        root.mainloop()
+    finally:
+        app.close()
+    return app.exit_status

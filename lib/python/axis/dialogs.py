@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Dialogs of the AXIS screen. All wait for an answer; the first button has index 0."""
+
+import tkinter as tk
+from tkinter import ttk
+
+SYSTEMS = ("P0  Current", "P1  G54", "P2  G55", "P3  G56", "P4  G57", "P5  G58", "P6  G59", "P7  G59.1", "P8  G59.2", "P9  G59.3")
+
+
+def centre(window, root):
+    window.update_idletasks()
+    x = root.winfo_rootx() + (root.winfo_width() - window.winfo_reqwidth()) // 2
+    y = root.winfo_rooty() + (root.winfo_height() - window.winfo_reqheight()) // 3
+    window.geometry(f"+{max(0, x)}+{max(0, y)}")
+
+
+class Modal:
+    """A window that waits for its answer."""
+
+    def __init__(self, root, title, name=None):
+        self.root = root
+        self.window = tk.Toplevel(root, class_="Dialog", padx=16, pady=12, **({"name": name} if name else {}))
+        self.window.withdraw()
+        self.window.title(title)
+        self.window.transient(root)
+        self.window.protocol("WM_DELETE_WINDOW", lambda: self.answer(None))
+        self.result = None
+        self.done = tk.BooleanVar(root, False)
+
+    def answer(self, value):
+        self.result = value
+        self.done.set(True)
+
+    def wait(self, focus=None):
+        centre(self.window, self.root)
+        self.window.deiconify()
+        self.window.wait_visibility()
+        self.window.grab_set()
+        (focus or self.window).focus_force()
+        self.root.wait_variable(self.done)
+        self.window.grab_release()
+        self.window.destroy()
+        return self.result
+
+
+def ask(root, title, text, icon, default, *buttons, extra=None, escape=None, name=None):
+    """Index of the button that was pressed; `extra`: a long text below the question."""
+    modal = Modal(root, title, name)
+    w = modal.window
+    sign = {"error": "⛔", "warning": "⚠", "info": "ℹ", "question": "?"}.get(icon, "")
+    top = tk.Frame(w)
+    top.pack(fill="x")
+    tk.Label(top, text=sign, font=("DejaVu Sans", 24)).pack(side="left", padx=(0, 12))
+    tk.Label(top, text=text, wraplength=480, justify="left").pack(side="left", fill="x")
+    if extra is not None:
+        box = tk.Text(w, width=80, height=12, wrap="word")
+        box.insert("end", extra)
+        box.configure(state="disabled")
+        box.pack(fill="both", expand=True, pady=8)
+    row = tk.Frame(w)
+    row.pack(pady=(12, 0))
+    made = []
+    for index, label in enumerate(buttons):
+        b = tk.Button(row, text=label, width=10, command=lambda i=index: modal.answer(i))
+        b.pack(side="left", padx=6)
+        b.bind("<Return>", lambda event, i=index: modal.answer(i))
+        b.bind("<KP_Enter>", lambda event, i=index: modal.answer(i))
+        made.append(b)
+    if escape is not None:
+        w.bind("<Escape>", lambda event: modal.answer(escape))
+    result = modal.wait(made[default] if 0 <= default < len(made) else None)
+    return result if result is not None else (escape if escape is not None else len(buttons) - 1)
+
+
+class Touchoff(Modal):
+    """Asks for a number or an expression, and for a coordinate system unless `system` is None."""
+
+    def __init__(self, root, title, text, default, unit, check, system=None):
+        super().__init__(root, title)
+        self.check, self.unit = check, unit
+        w = self.window
+        tk.Label(w, text=text, anchor="w").pack(fill="x")
+        row = tk.Frame(w)
+        row.pack(fill="x", pady=6)
+        self.value = tk.StringVar(root, str(default))
+        self.entry = tk.Entry(row, textvariable=self.value, width=24)
+        self.entry.pack(side="left", fill="x", expand=True)
+        self.shown = tk.Label(row, width=24, anchor="w")
+        self.shown.pack(side="left", padx=8)
+        self.ink = self.shown.cget("foreground")
+        self.system = None
+        if system is not None:
+            self.system = tk.StringVar(root, next(s for s in SYSTEMS if s.startswith(system)))
+            row = tk.Frame(w)
+            row.pack(fill="x", pady=6)
+            tk.Label(row, text="Coordinate System:").pack(side="left")
+            ttk.Combobox(row, textvariable=self.system, values=SYSTEMS, state="readonly", width=14).pack(side="left", padx=8)
+            for n in range(9):
+                w.bind(f"<Alt-Key-{n + 1}>", lambda event, n=n: self.system.set(SYSTEMS[n]))
+        row = tk.Frame(w)
+        row.pack(pady=(12, 0))
+        self.ok = tk.Button(row, text="OK", width=10, command=self.accept)
+        self.ok.pack(side="left", padx=6)
+        tk.Button(row, text="Cancel", width=10, command=lambda: self.answer(None)).pack(side="left", padx=6)
+        for key in ("<Return>", "<KP_Enter>"):
+            w.bind(key, lambda event: self.accept())
+        w.bind("<Escape>", lambda event: self.answer(None))
+        self.value.trace_add("write", lambda *_: self.validate())
+        self.entry.selection_range(0, "end")
+        self.entry.icursor("end")
+        self.validate()
+
+    def validate(self):
+        """Shows the value or what is wrong with it; true when it can be used."""
+        number, problem = self.check(self.value.get())
+        good = problem is None
+        self.shown.configure(text=f"= {number:f} {self.unit}" if good else problem, foreground=self.ink if good else "#b3261e")
+        self.ok.configure(state="normal" if good else "disabled")
+        return good
+
+    def accept(self):
+        if self.validate():
+            self.answer((self.value.get(), self.system.get().split()[0] if self.system else None))

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Updates: the widgets follow the machine's status."""
+
+import sys
+import time
+import traceback
+from types import SimpleNamespace
+
+import linuxcnc
+
+from .dro import active_codes, tool_text
+from .jog import position
+
+ERROR_POLL_MS = 200
+
+
+class FollowPart:
+    """Part of App: looks at the status and shows it."""
+
+    def state_changed(self, *args):
+        if not self.state_pending:
+            self.state_pending = True
+            self.root.after_idle(self.show_state)
+
+    def show_state(self):
+        self.state_pending = False
+        self.root.tk.call("update_state")
+
+    def update(self):
+        """One update cycle, and the next one in CYCLE_TIME."""
+        if self.tick():
+            self.root.after(self.settings.cycle_ms, self.update)
+
+    def tick(self):
+        """Shows the present status; False when the controller is gone and the screen ends."""
+        try:
+            self.stat.poll()
+            self.follow_status()
+        except linuxcnc.error as e:
+            self.jogger.stop_all()
+            print(f"axis: the controller does not answer: {e}", file=sys.stderr)
+            self.root.destroy()
+            return False
+        live = self.user.get("user_live_update")
+        if live:
+            try:
+                live()
+            except Exception:
+                traceback.print_exc()
+        return True
+
+    def follow_status(self):
+        s, v = self.stat, self.vars
+        put = v.put
+        for name in ("task_state", "task_mode", "interp_state", "exec_state", "motion_mode", "kinematics_type", "queued_mdi_commands"):
+            put(name, getattr(s, name))
+        put("task_paused", int(s.task_paused))
+        put("taskfile", s.file or "")
+        put("teleop_mode", int(s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP))
+        put("spindledir", int(s.spindle[0]["direction"]))
+        put("brake", bool(s.spindle[0]["brake"]))
+        put("flood", bool(s.flood))
+        put("mist", bool(s.mist))
+        put("override_limits", int(s.joint[0]["override_limits"]))
+        put("on_any_limit", int(any(s.limit[:self.settings.joints])))
+        put("tool", tool_text(s, self.settings.lathe, self.translate))
+        names = {linuxcnc.STATE_ESTOP: "ESTOP", linuxcnc.STATE_ON: "ON"}
+        put("task_state_string", self.translate(names.get(s.task_state, "OFF")))
+        self.follow_overrides()
+        self.follow_modes()
+        self.follow_line()
+        self.look_at_pins()
+        codes = active_codes(s)
+        if codes != self.widget_signs.get("codes"):
+            self.widget_signs["codes"] = codes
+            box = self.widgets.code_text
+            box.configure(state="normal")
+            box.delete("1.0", "end")
+            box.insert("end", codes)
+            box.configure(state="disabled")
+        self.show_readout()
+
+    def follow_overrides(self):
+        now = time.monotonic()
+        for name, value in (("feedrate", self.stat.feedrate), ("rapidrate", self.stat.rapidrate),
+                            ("spindlerate", self.stat.spindle[0]["override"])):
+            own = self.own_values.get(name)
+            if own is None or now > own[1]:
+                self.vars.put(name, round(100 * value))
+        if now > self.maxvel_quiet_until:
+            x = position(60 * self.stat.max_velocity, self.settings.max_velocity)
+            if abs(x - self.vars.maxvel_slider_val.get()) > 0.004:
+                self.vars.maxvel_slider_val.set(x)
+                self.slider("maxvel", x, send=False)
+
+    def follow_modes(self):
+        s = self.stat
+        joints = s.motion_mode == linuxcnc.TRAJ_MODE_FREE and s.kinematics_type != linuxcnc.KINEMATICS_IDENTITY
+        if joints != self.joints_shown:
+            first = self.joints_shown is None
+            self.joints_shown = joints
+            self.root.tk.call("::axis::show_joints", int(joints))
+            if joints or not first:
+                self.activate_ja_widget("0" if joints else self.settings.coordinates[0])
+        if s.motion_mode == linuxcnc.TRAJ_MODE_COORD and s.task_mode == linuxcnc.MODE_MANUAL and s.interp_state == linuxcnc.INTERP_IDLE:
+            self.command.teleop_enable(1)
+        if self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON):
+            self.jogger.stop_all()
+        state = (s.task_state == linuxcnc.STATE_ON, s.interp_state == linuxcnc.INTERP_IDLE)
+        if state == (True, True) and self.last_state not in (None, state) and s.task_mode == linuxcnc.MODE_AUTO:
+            self.root.tk.call("set_mode_from_tab")
+        self.last_state = state
+
+    def follow_line(self):
+        s = self.stat
+        line = s.motion_line if s.interp_state != linuxcnc.INTERP_IDLE and s.motion_line > 0 else -1
+        if line == -1 and s.interp_state != linuxcnc.INTERP_IDLE:
+            line = s.current_line or -1
+        if line != self.vars.running_line.get():
+            self.vars.running_line.set(line)
+            self.text.tag_remove("executing", "1.0", "end")
+            if line > 0:
+                self.text.tag_add("executing", f"{line}.0", f"{line}.end")
+                if self.vars.highlight_line.get() <= 0:
+                    self.text.see(f"{line}.0")
+
+    def show_readout(self):
+        v, s = self.vars, self.stat
+        view = SimpleNamespace(relative=bool(v.coord_type.get()), commanded=bool(v.display_type.get()), metric=bool(v.metric.get()),
+                               joints=bool(self.joints_shown), offsets=bool(v.show_offsets.get()), speed=bool(v.show_machine_speed.get()),
+                               distance_to_go=bool(v.show_distance_to_go.get()), extra_joints=s.num_extrajoints)
+        self.vars.put("position", self.translate("Position: Joint") if view.joints else
+                      f"Position: {'Relative' if view.relative else 'Machine'} {'Commanded' if view.commanded else 'Actual'}")
+        long_lines = self.readout.lines(s, view)
+        view.offsets = False
+        self.preview.stat = s
+        homed = [bool(s.homed[j]) for j in range(self.settings.joints)]
+        limited = [bool(x) for x in s.limit[:self.settings.joints]]
+        self.preview.readout_lines = self.readout.lines(s, view) if not v.show_offsets.get() else [x for x in long_lines if x]
+        self.preview.marks = list(zip(homed, limited))
+        key = (tuple(s.actual_position), tuple(long_lines), tuple(homed), tuple(limited), s.tool_in_spindle)
+        if key == self.widget_signs.get("readout"):
+            return
+        still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle)
+        if still != self.widget_signs.get("offsets"):
+            self.widget_signs["offsets"] = still
+            self.preview.dirty = True
+        self.widget_signs["readout"] = key
+        self.preview.redraw_soon()
+        box = self.widgets.numbers_text
+        text = "\n".join(long_lines)
+        box.configure(state="normal")
+        box.delete("1.0", "end")
+        box.insert("end", text)
+        box.configure(state="disabled", font=("DejaVu Sans Mono", self.digits_size(long_lines)))
+
+    def digits_size(self, lines):
+        """Font size (pixels, negative) that fills the DRO tab."""
+        width, height = self.widgets.numbers_text.winfo_width(), self.widgets.numbers_text.winfo_height()
+        longest = max((len(line) for line in lines), default=1)
+        return -max(10, min(int(width / (0.62 * longest)), int(height / (1.25 * max(1, len(lines)))), 96))
+
+    def poll_errors(self):
+        try:
+            message = self.errors.poll()
+            while message:
+                kind, text = message
+                self.notifications.add("error" if kind in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR) else "info", text)
+                message = self.errors.poll()
+        except linuxcnc.error:
+            pass
+        self.root.after(ERROR_POLL_MS, self.poll_errors)

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Icons of the tool bar, drawn at the size that the screen needs."""
+
+import io
+import tkinter as tk
+
+from PIL import Image, ImageDraw, ImageFont
+
+OVERSAMPLE = 4
+INK, BAD, GOOD, BLUE, QUIET, GOLD = "#2b2f36", "#c62828", "#1f8a3b", "#1f5fa8", "#8a919c", "#c98a00"
+DARK_INK = "#e4e6ea"
+
+
+class Pen:
+    """Draws in a square of 24 by 24 units."""
+
+    def __init__(self, size, ink):
+        self.scale = size * OVERSAMPLE / 24
+        self.size, self.ink = size, ink
+        self.image = Image.new("RGBA", (size * OVERSAMPLE,) * 2, (0, 0, 0, 0))
+        self.draw = ImageDraw.Draw(self.image)
+
+    def points(self, *xy):
+        return [c * self.scale for c in xy]
+
+    def line(self, *xy, colour=None, width=2):
+        self.draw.line(self.points(*xy), fill=colour or self.ink, width=round(width * self.scale), joint="curve")
+
+    def fill(self, *xy, colour=None):
+        self.draw.polygon(self.points(*xy), fill=colour or self.ink)
+
+    def ring(self, x, y, r, colour=None, width=2):
+        self.draw.ellipse(self.points(x - r, y - r, x + r, y + r), outline=colour or self.ink, width=round(width * self.scale))
+
+    def disc(self, x, y, r, colour=None):
+        self.draw.ellipse(self.points(x - r, y - r, x + r, y + r), fill=colour or self.ink)
+
+    def arc(self, x, y, r, start, end, colour=None, width=2):
+        self.draw.arc(self.points(x - r, y - r, x + r, y + r), start, end, fill=colour or self.ink, width=round(width * self.scale))
+
+    def rect(self, x0, y0, x1, y1, colour=None):
+        self.draw.rectangle(self.points(x0, y0, x1, y1), fill=colour or self.ink)
+
+    def text(self, text, colour=None, size=15):
+        try:
+            font = ImageFont.truetype("DejaVuSans-Bold.ttf", round(size * self.scale))
+        except OSError:
+            font = ImageFont.load_default()
+        self.draw.text(self.points(12, 12), text, fill=colour or self.ink, font=font, anchor="mm")
+
+    def png(self):
+        data = io.BytesIO()
+        self.image.resize((self.size, self.size), Image.LANCZOS).save(data, "PNG")
+        return data.getvalue()
+
+
+def estop(p):
+    p.disc(12, 12, 11, BAD)
+    p.line(7, 7, 17, 17, colour="#ffffff", width=3)
+    p.line(17, 7, 7, 17, colour="#ffffff", width=3)
+
+
+def power(p):
+    p.arc(12, 13, 8, -60, 240, GOOD, 2.6)
+    p.line(12, 2, 12, 12, colour=GOOD, width=2.6)
+
+
+def open_(p):
+    p.fill(2, 6, 9, 6, 11, 9, 20, 9, 20, 12, 2, 12, colour=GOLD)
+    p.fill(5, 11, 23, 11, 19, 20, 2, 20, colour="#e8ae30")
+
+
+def reload(p):
+    p.arc(12, 12, 8, 30, 320, BLUE, 2.6)
+    p.fill(15, 3, 22, 5, 17, 11, colour=BLUE)
+
+
+def run(p):
+    p.fill(6, 3, 20, 12, 6, 21, colour=GOOD)
+
+
+def step(p):
+    p.fill(4, 3, 15, 12, 4, 21, colour=GOOD)
+    p.rect(17, 4, 20, 20, GOOD)
+
+
+def pause(p, colour=None):
+    for x in (5, 14):
+        p.rect(x, 4, x + 4, 20, colour or BLUE)
+
+
+def pause_inhibited(p):
+    pause(p, QUIET)
+    p.line(3, 21, 21, 3, colour=BAD, width=2.4)
+
+
+def stop(p):
+    p.rect(4, 4, 20, 20, BAD)
+
+
+def blockdelete(p):
+    p.line(16, 3, 8, 21, width=3)
+    p.line(2, 12, 6, 12, colour=QUIET)
+    p.line(18, 12, 22, 12, colour=QUIET)
+
+
+def optpause(p):
+    p.text("M1", size=12)
+
+
+def magnifier(p, plus):
+    p.ring(10, 10, 7)
+    p.line(15, 15, 21, 21, width=3)
+    p.line(7, 10, 13, 10)
+    if plus:
+        p.line(10, 7, 10, 13)
+
+
+def letter(text, colour, turned=False):
+    def draw(p):
+        p.text(text, colour)
+        if turned:
+            p.arc(12, 12, 10.5, 200, 290, QUIET, 1.6)
+            p.fill(14, 0, 18, 3, 13, 5, colour=QUIET)
+    return draw
+
+
+def perspective(p):
+    a, b = (4, 9, 13, 5, 21, 8, 12, 13), ((4, 9), (12, 13), (21, 8))
+    p.line(*a, 4, 9, colour=BLUE, width=1.6)
+    for x, y in b:
+        p.line(x, y, x, y + 9, colour=BLUE, width=1.6)
+    p.line(4, 18, 12, 22, 21, 17, colour=BLUE, width=1.6)
+
+
+def rotate(p):
+    p.arc(12, 12, 9, 120, 400, width=2.2)
+    p.fill(16, 15, 23, 17, 18, 22)
+    p.disc(12, 12, 2)
+
+
+def clear(p):
+    p.line(3, 18, 9, 8, 14, 15, 20, 5, colour=GOLD, width=2)
+    p.line(4, 4, 20, 20, colour=BAD, width=2.4)
+
+
+def turning(start, end, head):
+    def draw(p):
+        p.arc(12, 12, 8, start, end, GOOD, 2.6)
+        p.fill(*head, colour=GOOD)
+    return draw
+
+
+DRAWINGS = {
+    "estop": estop, "power": power, "open": open_, "reload": reload, "run": run, "step": step, "pause": pause,
+    "pause_inhibited": pause_inhibited, "stop": stop, "blockdelete": blockdelete, "optpause": optpause,
+    "zoomin": lambda p: magnifier(p, True), "zoomout": lambda p: magnifier(p, False),
+    "view_z": letter("Z", "#3355dd"), "view_z2": letter("Z", "#3355dd", True), "view_x": letter("X", "#22993a"),
+    "view_y": letter("Y", "#c43c3c"), "view_y2": letter("Y", "#c43c3c", True), "view_p": perspective, "rotate": rotate,
+    "clear": clear, "spindle_cw": turning(180, 450, (12, 24, 12, 16, 5, 20)),
+    "spindle_ccw": turning(90, 360, (12, 24, 12, 16, 19, 20)), "spindle_stop": stop,
+}
+
+
+class Icons:
+    """Images by name; each is made once."""
+
+    def __init__(self, root, size, dark=False):
+        self.root, self.size, self.ink = root, size, DARK_INK if dark else INK
+        self.images = {}
+
+    def get(self, name):
+        if name not in self.images:
+            pen = Pen(self.size, self.ink)
+            DRAWINGS[name](pen)
+            self.images[name] = tk.PhotoImage(master=self.root, data=pen.png())
+        return self.images[name]

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Keys of the main window. Table: GUI reference, section 11. Entries keep their own keys."""
+
+import tkinter as tk
+
+MODIFIERS = 1 | 4 | 8 | 32 | 64 | 128      # Shift Control Mod1 ...; NumLock (16) and Lock (2) are allowed
+JOG_KEYS = {                               # keysym -> (place in the jog order, direction)
+    "Left": (0, -1), "Right": (0, 1), "Down": (1, -1), "Up": (1, 1), "Next": (2, -1), "Prior": (2, 1),
+    "bracketleft": (3, -1), "bracketright": (3, 1), "KP_Left": (0, -1), "KP_Right": (0, 1), "KP_4": (0, -1), "KP_6": (0, 1),
+    "KP_Down": (1, -1), "KP_Up": (1, 1), "KP_2": (1, -1), "KP_8": (1, 1), "KP_Next": (2, -1), "KP_Prior": (2, 1),
+    "KP_3": (2, -1), "KP_9": (2, 1),
+}
+PLAIN = {                                  # without modifiers: key -> command
+    "F2": "onoff_clicked", "F4": "next_tab", "F7": "mist_toggle", "F8": "flood_toggle", "F9": "spindle_forward_toggle",
+    "F10": "spindle_backward_toggle", "b": "brake_off", "o": "open_file", "r": "task_run", "t": "task_step", "p": "task_pause",
+    "s": "task_resume", "Escape": "task_stop", "l": "toggle_override_limits", "v": "cycle_view", "Home": "home_joint",
+    "End": "touch_off_system", "KP_Home": "home_joint", "KP_End": "touch_off_system",
+}
+MODIFIED = {                               # as Tk names them
+    "<Shift-Key-B>": "brake_on", "<Shift-Key-R>": "task_reverse", "<Shift-Key-F>": "task_forward",
+    "<Control-Key-r>": "reload_file", "<Control-Key-s>": "save_gcode", "<Control-Key-k>": "clear_live_plot",
+    "<Control-Key-Home>": "home_all_joints", "<Shift-Key-Home>": "set_axis_offset", "<Control-Key-End>": "touch_off_tool",
+    "<Key-exclam>": "toggle_metric", "<Key-at>": "toggle_display_type", "<Key-numbersign>": "toggle_coord_type",
+    "<Key-dollar>": "toggle_teleop_mode",
+}
+
+
+class Keys:
+    """Binds the keys of the window and filters their auto-repeat."""
+
+    def __init__(self, app):
+        self.app = app
+        self.held = {}            # keysym -> id of a release that waits for a repeat, or None
+        root = app.root
+        root.bind("<KeyPress>", self.press)
+        root.bind("<KeyRelease>", self.release)
+        root.bind_all("<Key-F1>", lambda event: self.call("estop_clicked"))
+        for sequence, command in MODIFIED.items():
+            root.bind(sequence, lambda event, name=command: self.call(name, event))
+        for sequence, function in (
+                ("<Key-F3>", lambda: app.raise_tab("manual")), ("<Key-F5>", lambda: app.raise_tab("mdi")),
+                ("<Control-Key-Tab>", app.other_tab), ("<Control-Key-space>", app.notifications.clear),
+                ("<Control-Key-e>", app.toggle_panel), ("<Key-Return>", root.focus_set), ("<Key-KP_Enter>", root.focus_set)):
+            root.bind(sequence, lambda event, f=function: self.unless_entry(event, f))
+        root.bind("<KeyPress-F11>", lambda event: self.spindle("spindle_decrease"))
+        root.bind("<KeyPress-F12>", lambda event: self.spindle("spindle_increase"))
+        root.bind("<KeyRelease-F11>", lambda event: self.spindle("spindle_constant"))
+        root.bind("<KeyRelease-F12>", lambda event: self.spindle("spindle_constant"))
+        root.bind("<FocusOut>", self.focus_out)
+
+    def call(self, name, event=None):
+        if event is not None and self.in_entry(event) and name != "task_stop":
+            return None
+        if name == "toggle_metric":
+            self.app.vars.metric.set(0 if self.app.vars.metric.get() else 1)
+            name = "redraw"
+        self.app.root.tk.call(name)
+        return "break"
+
+    def spindle(self, name):
+        if self.app.spindle_turns() or name == "spindle_constant":
+            self.app.root.tk.call(name)
+        return "break"
+
+    @staticmethod
+    def in_entry(event):
+        return isinstance(event.widget, (tk.Entry, tk.Listbox)) or "ombobox" in str(getattr(event.widget, "widgetName", ""))
+
+    def unless_entry(self, event, function):
+        if self.in_entry(event) and event.keysym not in ("F3", "F5", "Tab"):
+            return None
+        function()
+        return "break"
+
+    # -- plain keys ------------------------------------------------------------------------
+
+    def press(self, event):
+        if event.widget.winfo_toplevel() is not self.app.root:
+            return None
+        key = event.keysym
+        if self.in_entry(event):
+            return self.call("task_stop") if key == "Escape" else None
+        if key in self.held:             # auto-repeat: the waiting release was no release
+            if self.held[key]:
+                self.app.root.after_cancel(self.held[key])
+                self.held[key] = None
+            return "break"
+        if key in JOG_KEYS or key in ("minus", "equal"):
+            if event.state & (MODIFIERS & ~1) or (event.state & 1 and key in ("minus", "equal")):
+                return None
+            self.held[key] = None
+            self.jog(key, bool(event.state & 1))
+            return "break"
+        if event.state & MODIFIERS and key not in ("less", "greater", "I"):
+            return None
+        if key in PLAIN:
+            return self.call(PLAIN[key])
+        return "break" if self.other(key) else None
+
+    def jog(self, key, fast):
+        app = self.app
+        if key in ("minus", "equal"):
+            app.jogger.start(key, app.vars.ja_rbutton.get(), -1 if key == "minus" else 1)
+            return
+        place, direction = JOG_KEYS[key]
+        selected = app.jog_target(place)
+        if selected is None:
+            return
+        if not selected.isdigit() and selected.upper() in app.jog_invert:
+            direction = -direction
+        if app.jogger.start(key, selected, direction, fast):
+            app.activate_ja_widget(selected, True)
+
+    def release(self, event):
+        key = event.keysym
+        if key in self.held and self.held[key] is None:
+            # an auto-repeat sends release and press together: wait for the press
+            self.held[key] = self.app.root.after(1, lambda: self.let_go(key))
+
+    def let_go(self, key):
+        self.held.pop(key, None)
+        self.app.jogger.stop(key)
+
+    def focus_out(self, event):
+        if event.widget is self.app.root:
+            for key in list(self.held):
+                if self.held[key]:
+                    self.app.root.after_cancel(self.held[key])
+                self.let_go(key)
+            self.app.jogger.stop_all()
+
+    def other(self, key):
+        app = self.app
+        if key in "xyza" and len(key) == 1:
+            if key.upper() in app.settings.axes and not app.joints_shown and app.manual_ok():
+                app.activate_ja_widget(key, True)
+            return True
+        if key == "grave" or (len(key) == 1 and key.isdigit()):
+            app.digit(0 if key == "grave" else int(key), key == "grave")
+            return True
+        steps = {"comma": ("jog_slider_val", -1), "period": ("jog_slider_val", 1), "less": ("ajog_slider_val", -1),
+                 "greater": ("ajog_slider_val", 1), "semicolon": ("maxvel_slider_val", -1), "apostrophe": ("maxvel_slider_val", 1)}
+        if key in steps:
+            app.step_slider(*steps[key])
+        elif key == "i":
+            app.next_increment(1)
+        elif key == "I":
+            app.next_increment(-1)
+        elif key == "c":
+            app.continuous()
+        elif key == "d" and not app.settings.lathe:
+            app.vars.rotate_mode.set(0 if app.vars.rotate_mode.get() else 1)
+            app.root.tk.call("::axis::show_rotate")
+        else:
+            return False
+        return True

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Opening and starting programs: the dialogs, the text, the progress bar."""
+
+import os
+import time
+
+import linuxcnc
+from kerf.tree import Tree
+
+from . import dialogs, program
+
+
+class OpeningPart:
+    """Part of App: the program that is loaded."""
+
+    def show_recent(self):
+        self.root.tk.call("update_recent", *self.prefs.recent())
+
+    def add_recent(self, path):
+        self.prefs.add_recent(os.path.abspath(path))
+        self.show_recent()
+
+    def open_file_guts(self, path, filtered=False, addrecent=True):
+        """Opens a program: filter, task, text, preview."""
+        if self.running() or self.loading:
+            return
+        path = os.path.abspath(path)
+        if not os.path.isfile(path):
+            self.notifications.add("error", f"{path}: no such file")
+            return
+        if addrecent:
+            self.add_recent(path)
+        self.set_highlight_line(-1)
+        shown = path
+        self.is_filtered = bool(self.loader.filter_for(path))
+        self.begin_progress()
+        try:
+            if self.is_filtered and not filtered:
+                try:
+                    shown = self.loader.filtered(path, lambda percent: self.progress(percent / 2))
+                except program.FilterFailed as e:
+                    dialogs.ask(self.root, self.translate("Filter failed"), str(e), "error", 0, self.translate("OK"), extra=e.text)
+                    return
+            elif self.is_filtered:
+                shown = os.path.join(self.loader.folder, "filtered-" + os.path.basename(path))
+            self.loaded_file, self.shown_file = path, shown
+            self.load_shown()
+        finally:
+            self.end_progress()
+            self.root.tk.call("set_mode_from_tab")
+
+    def load_shown(self):
+        c = self.command
+        if self.manual_ok():
+            self.ensure_mode(linuxcnc.MODE_MANUAL)
+        c.task_plan_synch()
+        c.wait_complete()
+        c.program_open(self.shown_file)
+        c.wait_complete()
+        lines = program.text_lines(self.shown_file)
+        self.show_text(lines)
+        self.stat.poll()
+        total = max(1, len(lines))
+        timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"))
+        end = time.monotonic() + timeout if timeout else None
+
+        def progress(line):
+            self.progress(50 + 50 * line / total)
+            if end and time.monotonic() > end:
+                self.notifications.add("info", self.translate("G-code preview loading timed out"))
+                return True
+            return self.cancel_loading
+        path = self.loader.preview(self.shown_file, self.stat, bool(self.vars.block_delete.get()), progress)
+        self.preview.set_program(path)
+        if path.notify:
+            self.notifications.add("info", path.notify_message)
+        if path.error and not path.aborted:
+            fault = path.fault
+            line = fault["line"] if fault else path.last_line
+            dialogs.ask(self.root, self.translate("G-Code error in %s") % os.path.basename(self.shown_file),
+                        self.translate("Near line %d of %s:\n%s") % (line, self.shown_file, path.error), "error", 0,
+                        self.translate("OK"), extra=fault["report"] if fault else None)
+        self.show_title()
+
+    def reload_file(self, refilter=True):
+        """Opens the file again; highlighted line kept. refilter False: only the preview follows."""
+        if not self.loaded_file or self.running() or self.loading:
+            return
+        line = self.vars.highlight_line.get()
+        source = self.loaded_file
+        if refilter or not self.is_filtered:
+            if self.is_filtered:
+                self.open_file_guts(source, addrecent=False)
+            else:
+                self.begin_progress()
+                try:
+                    if os.path.exists(source):
+                        self.shown_file = self.loader.snapshot(source)
+                    self.load_shown()
+                finally:
+                    self.end_progress()
+                    self.root.tk.call("set_mode_from_tab")
+        else:
+            self.open_file_guts(source, filtered=True, addrecent=False)
+        self.set_highlight_line(line)
+
+    def show_text(self, lines):
+        t = self.text
+        t.configure(state="normal")
+        t.delete("1.0", "end")
+        chunks = []
+        for n, line in enumerate(lines, 1):
+            chunks += ["%6d: " % n, "lineno", line + "\n", ""]
+            if len(chunks) >= 4000:
+                t.insert("end", *chunks)
+                chunks = []
+        if chunks:
+            t.insert("end", *chunks)
+        t.configure(state="disabled")
+        t.yview_moveto(0)
+
+    def line_text(self, line):
+        return self.text.get(f"{line}.8", f"{line}.end") if line > 0 else ""
+
+    def show_title(self):
+        version = Tree.find().version()
+        name = os.path.basename(self.loaded_file) if self.loaded_file else None
+        self.root.title(f"{name} - AXIS {version} on {self.settings.machine}" if name else
+                        f"AXIS {version} on {self.settings.machine} (no file)")
+
+    def set_highlight_line(self, line):
+        line = int(line) if line and int(line) > 0 else -1
+        self.text.tag_remove("sel", "1.0", "end")
+        if line > 0:
+            self.text.tag_add("sel", f"{line}.0", f"{line}.end")
+            self.text.see(f"{line}.0")
+        if self.vars.highlight_line.get() != line:
+            self.vars.highlight_line.set(line)
+            self.preview.invalidate()
+
+    def begin_progress(self):
+        self.loading, self.cancel_loading = True, False
+        self.bar = self.root.nametowidget(".info.progress") if self.known(".info.progress") else self.wrap(".info.progress")
+        self.root.tk.call("pack", "forget", ".info.position")
+        self.root.tk.call("pack", ".info.progress", "-side", "left", "-fill", "both", "-expand", 1)
+        self.root.tk.call(".info.progress", "delete", "all")
+        self.root.tk.call(".info.progress", "create", "rectangle", -10, -10, -10, -10, "-fill", "#2f6db5", "-outline", "")
+        self.root.configure(cursor="watch")
+        self.root.update_idletasks()
+        self.progress_drawn = 0.0
+
+    def progress(self, percent):
+        now = time.monotonic()
+        if now - self.progress_drawn < 0.05:
+            return
+        self.progress_drawn = now
+        width, height = (int(self.root.tk.call("winfo", w, ".info.progress")) for w in ("width", "height"))
+        self.root.tk.call(".info.progress", "coords", 1, 0, 0, width * percent / 100, height)
+        self.root.update()
+
+    def end_progress(self):
+        self.loading = False
+        self.root.tk.call("pack", "forget", ".info.progress")
+        self.root.tk.call("pack", ".info.position", "-side", "left", "-padx", 6, "-fill", "x", "-expand", 1)
+        self.root.configure(cursor="")
+
+    def limit_warnings(self):
+        self.stat.poll()
+        return program.limit_warnings(self.preview.program, self.settings, self.stat)
+
+    def accept_limits(self):
+        """True when the program may run: within the limits, or the operator says so."""
+        _ = self.translate
+        while True:
+            warnings = self.limit_warnings()
+            if not warnings:
+                return True
+            answer = dialogs.ask(self.root, _("Program exceeds machine limits"), "\n".join(_(w) for w in warnings), "warning", 1,
+                                 _("Re-Check"), _("Run Anyway"), _("Cancel"), escape=2)
+            if answer == 1:
+                return True
+            if answer != 0:
+                return False
+            self.reload_file()
+
+    def run_from(self, line):
+        if self.loading or not self.manual_ok() or self.running() or not self.accept_limits():
+            return
+        if self.ensure_mode(linuxcnc.MODE_AUTO):
+            self.set_highlight_line(-1)
+            self.command.auto(linuxcnc.AUTO_RUN, line)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Preferences that AXIS remembers: ~/.axis_preferences, an INI file with one section [DEFAULT]."""
+
+import ast
+import configparser
+import os
+from pathlib import Path
+
+MAX_RECENT = 10
+
+
+class Preferences:
+    """Values by name; a missing one is written with its default when first asked for.
+
+    A damaged file is kept beside the new one as .axis_preferences.bad.
+    """
+
+    def __init__(self, path=None):
+        self.path = Path(path) if path else Path.home() / ".axis_preferences"
+        self.values = configparser.RawConfigParser()
+        try:
+            self.values.read(self.path)
+        except (configparser.Error, UnicodeDecodeError):
+            self.values = configparser.RawConfigParser()
+            os.replace(self.path, self.path.with_name(self.path.name + ".bad"))
+
+    def getpref(self, option, default=False, kind=bool):
+        """Value of an option as `kind` (bool, float, int, str; repr: a Python literal)."""
+        if self.values.has_option("DEFAULT", option):
+            text = self.values.get("DEFAULT", option)
+            try:
+                if kind is bool:
+                    return self.values.getboolean("DEFAULT", option)
+                return ast.literal_eval(text) if kind is repr else kind(text)
+            except (ValueError, SyntaxError):
+                pass
+        self.putpref(option, default, kind)
+        return default
+
+    def putpref(self, option, value, kind=bool):
+        """Keeps a value; the file is written at once and never half."""
+        self.values.set("DEFAULT", option, repr(value) if kind is repr else str(kind(value)))
+        new = self.path.with_name(self.path.name + ".new")
+        try:
+            with open(new, "w") as f:
+                self.values.write(f)
+                f.flush()
+                os.fsync(f.fileno())
+            os.replace(new, self.path)
+        except OSError as e:
+            print(f"axis: preferences are not kept: {e}")
+
+    def recent(self):
+        """Paths of recent files, newest first."""
+        found = self.getpref("recentfiles", [], repr)
+        return [f for f in found if isinstance(f, str)] if isinstance(found, list) else []
+
+    def add_recent(self, path):
+        self.putpref("recentfiles", ([path] + [f for f in self.recent() if f != path])[:MAX_RECENT], repr)

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Opening programs: filters, the text that is shown, the preview's data. No widgets here."""
+
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+
+from .settings import LETTERS, MM_PER_INCH
+
+PROGRESS = re.compile(r"FILTER_PROGRESS=(\d+)$")
+
+
+class FilterFailed(Exception):
+    """A filter ended with an error. `program`, `status`, `text`: what it printed."""
+
+    def __init__(self, program, status, text):
+        super().__init__(f"The program '{program}' exited with code {status}.  Any error messages it produced are shown below:")
+        self.program, self.status, self.text = program, status, text
+
+
+class Loader:
+    """Programs of one screen; temporary files live in its folder until close()."""
+
+    def __init__(self, settings):
+        self.s = settings
+        self.folder = tempfile.mkdtemp(prefix="axis-")
+
+    def close(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    # -- filters ---------------------------------------------------------------------------
+
+    def filter_for(self, path):
+        """Command of [FILTER] for the file's extension, or None."""
+        extension = os.path.splitext(path)[1][1:]
+        return self.s.find("FILTER", extension) if extension else None
+
+    def file_types(self):
+        """(description, patterns) for the open dialog."""
+        types, every = [], [".ngc"]
+        for line in self.s.ini.findall("FILTER", "PROGRAM_EXTENSION") or []:
+            extensions, _, description = line.partition(" ")
+            names = extensions.split(",")
+            types.append((description.strip() or extensions, names))
+            every += names
+        return [("All machinable files", every), ("rs274ngc files", [".ngc"]), *types, ("All files", "*")]
+
+    def filtered(self, path, progress=lambda percent: None):
+        """Path of the G-code that a filter makes of a file. Raises FilterFailed."""
+        program = self.filter_for(path)
+        target = os.path.join(self.folder, "filtered-" + os.path.basename(path))
+        quoted = path.replace("'", "'\\''")
+        messages = []
+        with open(target, "wb") as out:
+            child = subprocess.Popen(["sh", "-c", f"{program} '{quoted}'"], stdin=subprocess.DEVNULL, stdout=out,
+                                     stderr=subprocess.PIPE, text=True, errors="replace",
+                                     env=os.environ | {"AXIS_PROGRESS_BAR": "1"})
+            for line in child.stderr:
+                match = PROGRESS.match(line.strip())
+                if match:
+                    progress(int(match[1]))
+                else:
+                    print(line, end="")
+                    messages.append(line)
+            status = child.wait()
+        if status:
+            raise FilterFailed(program, status, "".join(messages))
+        return target
+
+    def snapshot(self, path):
+        """A copy of the file that later edits do not touch."""
+        target = os.path.join(self.folder, os.path.basename(path))
+        if os.path.realpath(target) != os.path.realpath(path):
+            shutil.copyfile(path, target)
+        return target
+
+    # -- preview ---------------------------------------------------------------------------
+
+    def init_codes(self, stat):
+        """Lines that bring the preview's interpreter into the machine's present state."""
+        startup = self.s.find("EMC", "RS274NGC_STARTUP_CODE") or self.s.find("RS274NGC", "RS274NGC_STARTUP_CODE")
+        codes = [startup] if startup else []
+        if self.s.find("TASK", "INTERPRETER"):
+            return codes
+        codes += ["G21" if self.s.units_per_mm == 1 else "G20", "g90"]
+        if stat.tool_in_spindle > 0:
+            codes.append(f"t{stat.tool_in_spindle} m6")
+        for letter in self.s.axes:
+            value = stat.position[LETTERS.index(letter)]
+            if self.s.flag(f"AXIS_{letter}", "WRAPPED_ROTARY"):
+                value %= 360
+            codes.append(f"g53 g0 {letter}{value:.8f}")
+        for code in stat.gcodes[3:]:
+            if code != -1:
+                codes.append(f"G{code / 10:.1f}" + (f" S{stat.settings[2]:.0f}" if code == 960 else ""))
+        offset = "".join(f" {c}{stat.tool_offset[LETTERS.index(c)]:.8f}" for c in self.s.axes)
+        codes.append("G43.1" + offset)
+        codes += [f"M{code}" for code in stat.mcodes[2:] if code != -1]
+        return codes
+
+    def preview(self, path, stat, block_delete=False, progress=lambda line: False):
+        """A gcode.Program of the file; progress(line) true stops the reading."""
+        import gcode
+        var = os.path.join(self.folder, "preview.var")
+        own = os.path.join(os.path.dirname(os.path.abspath(self.s.ini_path)), self.s.find("RS274NGC", "PARAMETER_FILE"))
+        if os.path.exists(own):
+            shutil.copyfile(own, var)
+        tools = [tuple(t)[:14] for t in stat.tool_table]
+        division = int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64))
+        return gcode.load(path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,
+                          linear_units=self.s.units_per_mm, ini=self.s.ini_path, arc_division=division,
+                          block_delete=block_delete, progress=progress)
+
+
+def text_lines(path):
+    """Lines of the file as they are shown: tabs expanded, no line ends."""
+    with open(path, errors="replace", newline="") as f:
+        return [line.rstrip("\r\n").replace("\r", "").expandtabs() for line in f.read().split("\n")]
+
+
+def limit_warnings(program, settings, stat):
+    """Warnings where the program leaves the soft limits of X, Y or Z."""
+    if program is None or program.n_moves == 0:
+        return []
+    scale = MM_PER_INCH * settings.units_per_mm
+    low, high = program.extents_tool
+    warnings = []
+    for i, letter in enumerate("XYZ"):
+        if letter not in settings.axes:
+            continue
+        axis = stat.axis[i]
+        if low[i] * scale < axis["min_position_limit"] - 1e-6:
+            warnings.append(f"Program exceeds machine minimum on axis {letter}")
+        if high[i] * scale > axis["max_position_limit"] + 1e-6:
+            warnings.append(f"Program exceeds machine maximum on axis {letter}")
+    if program.aborted:
+        warnings.append("G-code preview was truncated before completion; machine limits could not be fully checked.")
+    return warnings
+
+
+def properties(path, source, program, settings, metric):
+    """(name, value) lines of the properties dialog."""
+    if path is None:
+        return [("Name", "No file loaded")]
+    with open(path, errors="replace") as f:
+        lines = sum(1 for _ in f)
+    rows = [("Name", path if source is None else f"generated from {source}"),
+            ("Size", f"{os.path.getsize(path)} bytes\n{lines} G-code lines")]
+    if program is None:
+        return rows
+    scale, fmt, unit = (MM_PER_INCH, "%.3f", "mm") if metric else (1.0, "%.4f", "in")
+
+    def length(inches):
+        return f"{fmt % (inches * scale)} {unit}"
+    max_feed = settings.max_linear / (settings.units_per_mm * MM_PER_INCH) * 60
+    seconds = program.run_time(max_feed, max_feed)
+    rows += [("Rapid distance", length(program.rapid_length)), ("Feed distance", length(program.cutting_length)),
+             ("Run time", "%.1f minutes" % (seconds / 60) if seconds > 120 else "%d seconds" % seconds),
+             ("Tool Change List", " ".join(str(tool) for _, tool in program.tools))]
+    if program.n_moves:
+        low, high = program.extents
+        rows += [(f"{c} bounds", f"{fmt % (low[i] * scale)} to {fmt % (high[i] * scale)} = {length(high[i] - low[i])}")
+                 for i, c in enumerate("XYZ") if low[i] != high[i]]
+    return rows

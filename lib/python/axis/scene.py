@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Lines and labels of the preview beside the program: grid, axes, extents, limits, tool. Inches."""
+
+import math
+
+import numpy as np
+
+CIRCLE = 24              # pieces of a circle
+AXIS_LENGTH = 1.0
+ORIGIN_MM = 2.0          # radius of the mark at machine zero
+
+
+def runs(*polylines):
+    """Vertices and kinds (1 a piece, 0 a jump) of several polylines."""
+    points = [p for line in polylines for p in line]
+    kinds = [0 if i == 0 else 1 for line in polylines for i in range(len(line))]
+    return np.array(points, np.float32).reshape(-1, 3), np.array(kinds, np.uint8)
+
+
+def circle(centre, radius, u, v, count=CIRCLE):
+    """Points of a circle in the plane of two unit vectors."""
+    angles = [2 * math.pi * k / count for k in range(count + 1)]
+    return [tuple(c + radius * (math.cos(a) * p + math.sin(a) * q) for c, p, q in zip(centre, u, v)) for a in angles]
+
+
+def box(low, high):
+    """The twelve edges of a box."""
+    corner = [(low[0] if i & 1 == 0 else high[0], low[1] if i & 2 == 0 else high[1], low[2] if i & 4 == 0 else high[2])
+              for i in range(8)]
+    edges = [(a, b) for a in range(8) for b in (a ^ 1, a ^ 2, a ^ 4) if a < b]
+    return runs(*[(corner[a], corner[b]) for a, b in edges])
+
+
+def axes(origin, rotation_deg=0.0):
+    """Three single lines of X, Y and Z from the program's origin, as arrays in that order."""
+    t = math.radians(rotation_deg)
+    directions = ((math.cos(t), math.sin(t), 0.0), (-math.sin(t), math.cos(t), 0.0), (0.0, 0.0, 1.0))
+    return [runs([origin, tuple(o + AXIS_LENGTH * d for o, d in zip(origin, direction))]) for direction in directions]
+
+
+def origin_mark():
+    """Three circles around machine zero."""
+    r = ORIGIN_MM / 25.4
+    x, y, z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+    return runs(*[circle((0, 0, 0), r, u, v) for u, v in ((x, y), (x, z), (y, z))])
+
+
+def grid(step, centre, size, plane, rotation_deg=0.0):
+    """Lines every `step` over a square of twice `size` around the centre; plane: indices of its axes."""
+    if step <= 0 or size / step > 200:
+        return runs()
+    i, j = plane
+    t = math.radians(rotation_deg) if plane == (0, 1) else 0.0
+    lines = []
+    for a, b in ((i, j), (j, i)):
+        first = math.ceil((centre[a] - size) / step)
+        for k in range(first, math.floor((centre[a] + size) / step) + 1):
+            ends = []
+            for side in (-1, 1):
+                p = [0.0, 0.0, 0.0]
+                p[a], p[b] = k * step, centre[b] + side * size
+                if t:
+                    p[0], p[1] = p[0] * math.cos(t) - p[1] * math.sin(t), p[0] * math.sin(t) + p[1] * math.cos(t)
+                ends.append(tuple(p))
+            lines.append(ends)
+    return runs(*lines)
+
+
+def cone(tip, radius, height):
+    """A wire cone that stands on its tip."""
+    top = circle((tip[0], tip[1], tip[2] + height), radius, (1, 0, 0), (0, 1, 0))
+    sides = [(tip, top[k]) for k in range(0, CIRCLE, 3)]
+    return runs(top, *sides)
+
+
+def cylinder(bottom, radius, height):
+    low = circle(bottom, radius, (1, 0, 0), (0, 1, 0))
+    high = circle((bottom[0], bottom[1], bottom[2] + height), radius, (1, 0, 0), (0, 1, 0))
+    return runs(low, high, *[(low[k], high[k]) for k in range(0, CIRCLE, 3)])
+
+
+# Displacement of a lathe tool's tip from its centre, by orientation
+TIP = {1: (1, -1), 2: (1, 1), 3: (-1, 1), 4: (-1, -1), 5: (0, -1), 6: (1, 0), 7: (0, 1), 8: (-1, 0), 9: (0, 0)}
+
+
+def lathe_tool(position, diameter, front, back, orientation):
+    """Profile of a lathe tool in XZ; angles in degrees. Nothing for an orientation that is unknown."""
+    if orientation not in TIP:
+        return runs()
+    r = diameter / 2
+    dx, dz = TIP[orientation]
+    cx, cy, cz = position[0] + r * dx, position[1], position[2] + r * dz
+    if orientation == 9:
+        return runs(circle((cx, cy, cz), r, (1, 0, 0), (0, 0, 1)))
+    low, high = math.radians(-90 + min(front, back)), math.radians(-270 + max(front, back))
+    arc = [(cx - r * math.sin(low + (high - low) * k / 36), cy, cz + r * math.cos(low + (high - low) * k / 36)) for k in range(37)]
+    length = max(0.375, 3 * r)
+
+    def side(end, angle):
+        return end[0] + length * math.sin(angle), end[1], end[2] + length * math.cos(angle)
+    start = side(arc[0], math.radians(min(front, back)) + math.pi / 2)
+    stop = side(arc[-1], math.radians(max(front, back)) - math.pi / 2)
+    return runs([start, *arc, stop])
+
+
+def dimension(low, high, axis, plane_axis, metric):
+    """(vertices, kinds, [(place, text)]) of the extent along one axis, drawn beside the box in plane_axis."""
+    gap = 0.06 * max(h - l for l, h in zip(low, high)) + 0.05
+    a, b = list(low), list(low)
+    b[axis] = high[axis]
+    a[plane_axis] -= gap
+    b[plane_axis] -= gap
+    ticks = []
+    for p in (a, b):
+        q, r = list(p), list(p)
+        q[plane_axis] -= gap / 3
+        r[plane_axis] += gap / 3
+        ticks.append((tuple(q), tuple(r)))
+    form, scale = ("%.1f", 25.4) if metric else ("%.2f", 1.0)
+    middle = [(p + q) / 2 for p, q in zip(a, b)]
+    labels = [(tuple(a), form % (low[axis] * scale)), (tuple(b), form % (high[axis] * scale)),
+              (tuple(middle), form % ((high[axis] - low[axis]) * scale))]
+    return (*runs((tuple(a), tuple(b)), *ticks), labels)

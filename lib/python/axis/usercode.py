@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The user's code (~/.axisrc), embedded tabs, and files that are loaded behind the screen."""
+
+import os
+import subprocess
+import sys
+import tkinter as tk
+import traceback
+from types import SimpleNamespace
+
+import hal
+import linuxcnc
+
+from . import dialogs
+from . import help as help_texts
+from .settings import LETTERS
+from .touchoff import Checker
+
+CHILD_POLL_MS = 100
+
+
+class UserPart:
+    """Part of App: what users add to the screen."""
+
+    def run_user_file(self):
+        given = self.settings.find("DISPLAY", "USER_COMMAND_FILE")
+        path = os.path.expanduser(given or "~/.axisrc")
+        self.user = self.user_names()
+        if not os.path.exists(path):
+            if given:
+                self.notifications.add("error", f"[DISPLAY]USER_COMMAND_FILE: {path} does not exist")
+            return
+        try:
+            with open(path) as f:
+                exec(compile(f.read(), path, "exec"), self.user)
+        except Exception:
+            text = traceback.format_exc()
+            print(text, file=sys.stderr)
+            dialogs.ask(self.root, self.translate("Error in ~/.axisrc"),
+                        self.translate("The error given below occurred in your ~/.axisrc; AXIS goes on without the rest of it."),
+                        "error", 0, self.translate("OK"), extra=text)
+
+    def user_names(self):
+        """What the user's code finds in its globals."""
+        names = dict(root_window=self.root, widgets=self.widgets, vars=self.vars, commands=self.commands, TclCommands=self.TclCommands,
+                     inifile=self.ini, s=self.stat, c=self.command, e=self.errors, o=self.preview, t=self.text, comp=self.comp, hal=hal,
+                     linuxcnc=linuxcnc, live_plotter=SimpleNamespace(logger=self.logger, clear=self.preview.clear_plot),
+                     notifications=self.notifications, ap=self.prefs, help1=help_texts.help1, help2=help_texts.help2,
+                     trajcoordinates=self.settings.coordinates.lower(), num_joints=self.settings.joints, lathe=int(self.settings.lathe),
+                     foam=int(self.settings.foam), jog_order="".join(self.settings.jog_order()), jog_invert=self.jog_invert,
+                     loaded_file=self.loaded_file, current_tool=None, set_feedrate=lambda n: self.set_override("feedrate", int(n)),
+                     set_rapidrate=lambda n: self.set_override("rapidrate", int(n)), get_jog_speed=self.get_jog_speed,
+                     jog_on=self.jog_on, jog_off=self.jog_off, running=self.running, manual_ok=self.manual_ok,
+                     ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, all_homed=self.all_homed, go_home=self.go_home,
+                     set_motion_teleop=self.set_motion_teleop, activate_ja_widget=self.activate_ja_widget,
+                     open_file_guts=self.open_file_guts, reload_file=self.reload_file, rClicker=lambda event: None,
+                     user_live_update=lambda: None, user_hal_pins=lambda: None, tabs_mdi=".pane.top.tabs.fmdi",
+                     tabs_manual=".pane.top.tabs.fmanual", tabs_preview=".pane.top.right.fpreview",
+                     tabs_numbers=".pane.top.right.fnumbers", pane_top=".pane.top", pane_bottom=".pane.bottom", _=self.translate,
+                     nf_dialog=self.nf_dialog, tk=tk, Tkinter=tk, os=os, sys=sys)
+        names["__name__"] = "axis"
+        return names
+
+    def get_jog_speed(self, number):
+        return self.jogger.speed_of(int(number), self.jogger.joint_mode())
+
+    def jog_on(self, number, speed_now):
+        """Jogs an axis (or joint) number; a number of a joint or an axis as the mode has it."""
+        joint_mode = self.jogger.joint_mode()
+        name = str(number) if joint_mode else LETTERS[int(number)]
+        self.jogger.start(f"user {number}", name, 1 if speed_now > 0 else -1)
+
+    def jog_off(self, number):
+        self.jogger.stop(f"user {number}")
+
+    def prompt_float(self, title, text, default, unit):
+        """(value, None) or (None, None) when cancelled."""
+        dialog = dialogs.Touchoff(self.root, title, text, default, unit, Checker(self.settings, os.path.join(self.loader.folder, "prompt.var")))
+        answer = dialog.wait(dialog.entry)
+        return (float(dialog.check(answer[0])[0]), None) if answer else (None, None)
+
+    def nf_dialog(self, path, title, text, icon, default, *buttons):
+        extra = None
+        if isinstance(path, (list, tuple)) and "-ext" in path:
+            extra = path[path.index("-ext") + 1]
+        return dialogs.ask(self.root, title, text, icon, int(default), *buttons, extra=extra)
+
+    def start_tabs(self):
+        """Embedded tabs; returns False for an invalid configuration."""
+        names = self.ini.findall("DISPLAY", "EMBED_TAB_NAME") or []
+        lines = self.ini.findall("DISPLAY", "EMBED_TAB_COMMAND") or []
+        if len(names) != len(lines):
+            print("Invalid tab configuration")
+            return
+        os.environ["AXIS_FORWARD_EVENTS_TO"] = str(self.root.winfo_id())
+        for i, (name, line) in enumerate(zip(names, lines)):
+            frame = self.add_tab(f"user_{i}", name)
+            container = f"{frame}.container"
+            self.root.tk.call("frame", container, "-container", 1)
+            self.root.tk.call("pack", container, "-fill", "both", "-expand", 1)
+            self.root.update_idletasks()
+            words = line.replace("{XID}", str(self.root.tk.call("winfo", "id", container))).split()
+            try:
+                self.children.append((subprocess.Popen(words), line))
+            except OSError as e:
+                print(f"axis: EMBED_TAB_COMMAND = {line}: {e.strerror}")
+
+    def wait_for_children(self, then):
+        """Calls `then` when every child that loads a component is done; a failure ends AXIS."""
+        for child, line in self.children:
+            if line.startswith("halcmd loadusr") and child.poll() is None:
+                self.root.after(CHILD_POLL_MS, lambda: self.wait_for_children(then))
+                return
+        for child, line in self.children:
+            if line.startswith("halcmd loadusr") and child.returncode:
+                print(f"axis: '{line}' ended with {child.returncode}")
+                self.exit_status = child.returncode
+                self.root.destroy()
+                return
+        then()
+
+    def postgui(self):
+        """[HAL]POSTGUI_HALFILE and POSTGUI_HALCMD; a failure ends AXIS with its status."""
+        ini = self.settings.ini_path
+        lines = []
+        for entry in self.ini.findall("HAL", "POSTGUI_HALFILE") or []:
+            name, *args = entry.split()
+            name = os.path.expanduser(name)
+            lines.append(["haltcl", "-i", ini, name, *args] if name.endswith(".tcl") else ["halcmd", "-i", ini, "-f", name])
+        lines += [["halcmd", *line.split()] for line in self.ini.findall("HAL", "POSTGUI_HALCMD") or []]
+        for words in lines:
+            status = subprocess.call(words)
+            if status:
+                print(f"axis: '{' '.join(words)}' ended with {status}", file=sys.stderr)
+                self.exit_status = status
+                self.root.destroy()
+                return
+        self.show()
