@@ -3,7 +3,6 @@
 
 import gettext
 import os
-import subprocess
 import sys
 import threading
 import time
@@ -14,7 +13,7 @@ import linuxcnc
 from kerf import clock
 from kerf.tree import Tree
 
-from . import dialogs, program
+from . import dialogs, program, remote
 from .follow import FollowPart
 from .jog import speed
 from .opening import OpeningPart
@@ -404,6 +403,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
 
     def start(self, first_file):
         """Everything after the widgets, in the documented order."""
+        remote.serve(self.root, self, self.running)
         self.command.set_block_delete(self.vars.block_delete.get())
         self.command.set_optional_stop(self.vars.optional_stop.get())
         self.make_pins()
@@ -432,6 +432,23 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
         if initial and os.path.isfile(initial):
             self.root.after(50, lambda: self.open_file_guts(initial))
 
+    # What other programs ask for (remote.py).
+
+    def load(self, path):
+        self.TclCommands.open_file_name(path)
+
+    def reload(self):
+        self.reload_file()
+
+    def send_mdi(self, text):
+        self.TclCommands.send_mdi_command(text)
+
+    def clear_live_plot(self):
+        self.preview.clear_plot()
+
+    def quit(self):
+        self.root.destroy()
+
     def close(self):
         self.logger.stop()
         self.loader.close()
@@ -454,11 +471,6 @@ def main(argv):
         return 1
     root = tk.Tk(className="Axis", baseName="axis")
     root.withdraw()
-    for user in ("gdm", "root"):
-        try:
-            subprocess.run(["xhost", f"-SI:localuser:{user}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        except OSError:
-            break
     try:
         app = App(root, ini_path)
     except (SettingsError, linuxcnc.error) as e:

@@ -87,14 +87,6 @@ def make(app):
             if not app.running():
                 app.reload_file(str(args[0]) != "0" if args and str(args[0]) in ("0", "1") else True)
 
-        def remote(command, *args):
-            if app.running() and command != "clear_live_plot":
-                return "axis cannot accept remote command while running"
-            if command == "destroy":
-                root.after_idle(root.destroy)
-                return ""
-            return getattr(TclCommands, command)(*args) or ""
-
         def send_mdi_command(text):
             if app.ensure_mode(linuxcnc.MODE_MDI):
                 c.mdi(str(text))

@@ -161,12 +161,14 @@ class FollowPart:
         return -max(10, min(int(width / (0.62 * longest)), int(height / (1.25 * max(1, len(lines)))), 96))
 
     def poll_errors(self):
+        """Shows new messages now and every ERROR_POLL_MS."""
+        self.show_errors()
+        self.root.after(ERROR_POLL_MS, self.poll_errors)
+
+    def show_errors(self):
         try:
-            message = self.errors.poll()
-            while message:
+            while message := self.errors.poll():
                 kind, text = message
                 self.notifications.add("error" if kind in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR) else "info", text)
-                message = self.errors.poll()
         except linuxcnc.error:
-            pass
-        self.root.after(ERROR_POLL_MS, self.poll_errors)
+            pass            # tick() tells when the controller is gone

@@ -39,9 +39,10 @@ class Keys:
             root.bind(sequence, lambda event, name=command: self.call(name, event))
         for sequence, function in (
                 ("<Key-F3>", lambda: app.raise_tab("manual")), ("<Key-F5>", lambda: app.raise_tab("mdi")),
-                ("<Control-Key-Tab>", app.other_tab), ("<Control-Key-space>", app.notifications.clear),
+                ("<Control-Key-Tab>", app.other_tab),
                 ("<Control-Key-e>", app.toggle_panel), ("<Key-Return>", root.focus_set), ("<Key-KP_Enter>", root.focus_set)):
             root.bind(sequence, lambda event, f=function: self.unless_entry(event, f))
+        root.bind("<Control-Key-space>", lambda event: app.notifications.clear())
         root.bind("<KeyPress-F11>", lambda event: self.spindle("spindle_decrease"))
         root.bind("<KeyPress-F12>", lambda event: self.spindle("spindle_increase"))
         root.bind("<KeyRelease-F11>", lambda event: self.spindle("spindle_constant"))

@@ -94,8 +94,6 @@ class PinsPart:
             self.user.get("user_hal_pins", lambda: None)()
         except Exception:
             traceback.print_exc()
-        try:
+        if not hal.component_is_ready("axisui"):        # the user's code may have been first
             self.comp.ready()
-        except Exception:
-            pass                # the user's code was first
         self.show_selected()

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import hal
 import linuxcnc
+from kerf import clock
 
 from . import dialogs
 from . import help as help_texts
@@ -129,7 +130,7 @@ class UserPart:
             lines.append(["haltcl", "-i", ini, name, *args] if name.endswith(".tcl") else ["halcmd", "-i", ini, "-f", name])
         lines += [["halcmd", *line.split()] for line in self.ini.findall("HAL", "POSTGUI_HALCMD") or []]
         for words in lines:
-            status = subprocess.call(words)
+            status = clock.run(words).returncode
             if status:
                 print(f"axis: '{' '.join(words)}' ended with {status}", file=sys.stderr)
                 self.exit_status = status

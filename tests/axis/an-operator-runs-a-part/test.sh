@@ -18,4 +18,4 @@ NGC
 screen_test mill operator_script.py "$PWD/part.ngc"
 cat machine/transcript
 grep -v -E '^(Note|task:)' screen.err | grep -i -A8 traceback
-[ -n "${KEEP:-}" ] || rm -rf machine home part.ngc screen.log screen.err
+rm -rf machine home part.ngc screen.log screen.err

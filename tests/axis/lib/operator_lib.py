@@ -32,6 +32,7 @@ class Operator:
         end = clock.now() + seconds
         while clock.now() < end:
             self.app.tick()
+            self.app.show_errors()
             self.root.update()
             clock.sleep(CYCLE_S)
 
@@ -97,10 +98,10 @@ class Operator:
     def idle(self):
         self.until(lambda: self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.inpos, "end of the program", 600)
 
-    def answer(self, index, text=None):
-        """The next dialog is answered with this button (and text), without a window."""
+    def answer(self, index):
+        """Dialogs are answered with this button, without a window."""
         def ask(root, title, question, icon, default, *buttons, extra=None, **_):
-            print(f"dialog: {title}: {question.splitlines()[0]} [{buttons[index]}]")
+            print(f"dialog: {title}: {question.splitlines()[0]} [{buttons[index]}]", extra or "")
             return index
         dialogs.ask = ask
 
@@ -123,8 +124,9 @@ def run(script):
     clock.join("axis")
     root = tk.Tk(className="Axis")
     app = App(root, os.path.abspath(ini))
-    app.start(os.path.abspath(rest[0]) if rest else None)
     operator = Operator(app)
+    operator.answer(0)
+    app.start(os.path.abspath(rest[0]) if rest else None)
     status = 0
     try:
         operator.wait(0.3)
