@@ -229,6 +229,9 @@ int hal_exit(int comp_id)
     halp_lock();
     struct hal_comp *c = halp_find_comp_id(comp_id);
     if (!c) {
+#ifdef RTAPI
+        halp_cycles_over();
+#endif
         halp_unlock();
         halp_err("HAL: ERROR: component %d not found\n", comp_id);
         return -ENOENT;
@@ -241,6 +244,9 @@ int hal_exit(int comp_id)
 #endif
     halp_change();
     halp_comp_remove(c);
+#ifdef RTAPI
+    halp_cycles_over();
+#endif
     halp_unlock();
     halp_dbg("HAL: component %02d removed, name = '%s'\n", comp_id, name);
     if (own) { /* the module id belongs to the process that made the component */

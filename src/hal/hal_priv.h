@@ -339,6 +339,9 @@ int halp_port_alloc(struct hal_sig *sig, unsigned size);
 void halp_funct_remove(struct hal_funct *f);
 void halp_thread_remove(struct hal_thread *t);  /* from the database; its task is gone */
 void halp_drain_inits(void);
+/* Waits until no thread is in a cycle that began before: whoever took functions out of it may
+ * have died without waiting, and code must stay while it runs. In the host, lock held. [init] */
+void halp_cycles_over(void);
 void halp_thread_filter(struct hal_thread *t); /* drops functions that are not live, counts users */
 void halp_threads_end(void);                   /* the host ends: tasks and threads */
 

@@ -50,6 +50,21 @@ static bool cycle_over(struct hal_thread *t)
     return halp_process_gone(&hal_data->host);
 }
 
+#ifdef RTAPI
+void halp_cycles_over(void)
+{
+    bool told = false;
+    for (struct hal_thread *t = halp_first(HAL_KIND_THREAD); t; t = halp_next(t)) {
+        while (rtapi_task_self() < 0 && !cycle_over(t)) {
+            if (!told) {
+                halp_err("HAL: ERROR: thread '%s' does not end its cycle; waiting to unload\n", t->o.name);
+                told = true;
+            }
+        }
+    }
+}
+#endif
+
 /* Makes fresh the list of t (place: &t->list or &t->inits) and gives the old one
  * back when nobody can be using it any more. */
 static void publish(struct hal_thread *t, _Atomic hal_off *place, hal_off fresh)

@@ -85,6 +85,8 @@ const struct rtapi_backend_ops *host_backend(void);
 void host_task_body(struct task *task);
 /* Ends all tasks. [init] */
 void host_tasks_end(void);
+/* Ends the tasks whose code is in the module loaded at base, with a message. [init] */
+void host_tasks_end_of(const void *base, const char *module);
 
 /* ---- This machine ------------------------------------------------------- */
 

@@ -217,6 +217,10 @@ static void end_module(struct module *m)
         link = &(*link)->older;
     }
     m->exit();
+    Dl_info where; /* code must not go while a task runs it */
+    if (dladdr((const void *)(uintptr_t)m->exit, &where)) {
+        host_tasks_end_of(where.dli_fbase, m->name);
+    }
     *link = m->older;
     dlclose(m->handle);
     free(m);

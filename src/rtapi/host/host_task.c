@@ -11,6 +11,7 @@
  */
 #include "host.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <string.h>
 #include "kerf_clock.h"
@@ -177,6 +178,18 @@ void host_tasks_end(void)
 {
     for (int id = 0; id < MAX_TASKS; id++) {
         rtapi_task_delete(id);
+    }
+}
+
+void host_tasks_end_of(const void *base, const char *module)
+{
+    for (int id = 0; id < MAX_TASKS; id++) {
+        struct task *t = task_of(id);
+        Dl_info where;
+        if (t && dladdr((const void *)(uintptr_t)t->code, &where) && where.dli_fbase == base) {
+            rtapi_print_msg(RTAPI_MSG_ERR, "%s: its exit left task %d, which is ended\n", module, id);
+            rtapi_task_delete(id);
+        }
     }
 }
 
