@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -196,9 +197,8 @@ struct Bench {
     }
     ~Bench()
     {
-        for (const std::string &f : files) unlink(f.c_str());
-        for (const char *f : {"fuzz.ini", "remapm.ngc", "remapg.ngc", "remapt.ngc", "remaps.ngc"}) unlink(f);
-        if (chdir("/") == 0) rmdir(folder.c_str());
+        std::error_code ignored;
+        if (chdir("/") == 0) std::filesystem::remove_all(folder, ignored); // with what programs wrote
     }
 
     void write(const std::string &name, std::string_view text)
