@@ -28,3 +28,8 @@ $(O)/test/motion-handover: $(HANDOVER_OBJECTS) $(T)/lib/liblinuxcnchal.so
 	$(Q)mkdir -p $(@D) && $(CXX) $(SAN) $(LDFLAGS) -o $@ $(HANDOVER_OBJECTS) -L$(T)/lib -llinuxcnchal -lpthread -lm -Wl,-rpath,'$$ORIGIN/../../lib'
 DEPS += $(HANDOVER_OBJECTS:.o=.d)
 EXTRA_TARGETS += $(O)/test/motion-handover
+
+.PHONY: bench-motion
+bench-motion: modules
+	/usr/bin/python3 src/emc/motion/test/phase-bench.py $(CURDIR)
+BENCHES += bench-motion

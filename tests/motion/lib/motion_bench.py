@@ -8,6 +8,7 @@ it in virtual time (KERF_CLOCK=virtual, set by run.sh). Units: machine units, s.
 
 import atexit
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -215,7 +216,9 @@ def halcmd(lines):
 def run_realtime(word):
     log = os.environ.get("MOTION_BENCH_LOG", os.devnull)
     with open(log, "a") as out:
-        done = clock.run(["realtime", word], stdin=subprocess.DEVNULL, stdout=out, stderr=out)
+        under = os.environ.get("MOTION_BENCH_UNDER", "").split()  # a program that runs the realtime host
+        command = [*under, shutil.which("rtapi_app"), "start"] if under and word == "start" else ["realtime", word]
+        done = clock.run(command, stdin=subprocess.DEVNULL, stdout=out, stderr=out)
     if done.returncode and word == "start":
         raise RuntimeError("realtime start failed")
 
