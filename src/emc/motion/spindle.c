@@ -45,7 +45,7 @@ void spindle_output(struct motion *m)
     for (int n = 0; n < m->num_spindles; n++) {
         const spindle_status_t *s = &m->status->spindle_status[n];
         struct spindle_pins *p = &m->pins->spindle[n];
-        double rpm = speed_out(m, s);
+        double rpm = s->state ? speed_out(m, s) : 0.0; /* a set speed alone turns nothing */
         hal_set_real(p->speed_out, rpm);
         hal_set_real(p->speed_out_abs, fabs(rpm));
         hal_set_real(p->speed_out_rps, rpm / 60.0);

@@ -42,6 +42,7 @@ def machine(value):
 
 RISES = {  # action: what it may switch on
     "start": (start, {"on", "forward", "reverse", "speed"}),
+    "speed alone": (lambda s: m.send(km.SPINDLE_ON, spindle=s, vel=rng.choice([-900, 0, 700]), state=0, ini_maxvel=0, acc=0), set()),
     "faster": (cmd(km.SPINDLE_INCREASE), {"speed"}),
     "override": (lambda s: m.send(km.SPINDLE_SCALE, spindle=max(s, 0), scale=rng.choice([0, 0.5, 1, 1.5])), {"speed", "forward", "reverse"}),
     "override enable": (lambda s: m.send(km.SS_ENABLE, mode=rng.choice([0, 1])), {"speed", "forward", "reverse"}),
@@ -85,6 +86,8 @@ for _ in range(4000):
                 raise SystemExit(f"step {steps}: '{name}' of {chosen} raised {what} of spindle {s}: {before[s]} {after[s]}")
         if after[s]["orient"] and after[s]["on"]:
             raise SystemExit(f"step {steps}: '{name}' leaves spindle {s} turning and orienting (FP-029)")
+        if not after[s]["on"] and (after[s]["speed"] or after[s]["forward"] or after[s]["reverse"]):
+            raise SystemExit(f"step {steps}: '{name}' turns spindle {s} that is off: {after[s]} (FP-029)")
         if after[s]["speed"] > 6000 or (after[s]["reverse"] and after[s]["speed"] > 5000):
             raise SystemExit(f"step {steps}: spindle {s} is over its limit: {after[s]}")
         if name == "stop" and chosen in (-1, s) and (after[s]["on"] or after[s]["speed"] or not m.get(f"spindle.{s}.brake")):
