@@ -276,13 +276,20 @@ static void joint_faults(struct motion *m, int j)
         return;
     int high = joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) && !(overridden & 2);
     int low = joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT) && !(overridden & 1);
-    if (!get_homing(j) && (high || low) && joint_fault(m, jt))
-        report_error("joint %d on limit switch error (%s switch, position %.5f)", j,
-                     high ? "positive" : "negative", jt->pos_fb);
-    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt))
-        report_error("joint %d amplifier fault (position %.5f)", j, jt->pos_fb);
-    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt))
-        report_error("joint %d following error (%.5f, limit %.5f)", j, jt->ferror, jt->ferror_limit);
+    /* the text for the operator, then what was measured for the log */
+    if (!get_homing(j) && (high || low) && joint_fault(m, jt)) {
+        report_error("joint %d on limit switch error", j);
+        rtapi_print("motion: joint %d: %s limit switch at position %.5f\n", j, high ? "positive" : "negative", jt->pos_fb);
+    }
+    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt)) {
+        report_error("joint %d amplifier fault", j);
+        rtapi_print("motion: joint %d: amplifier fault at position %.5f\n", j, jt->pos_fb);
+    }
+    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt)) {
+        report_error("joint %d following error", j);
+        rtapi_print("motion: joint %d: following error %.5f, limit %.5f at velocity %.5f\n", j, jt->ferror,
+                    jt->ferror_limit, jt->vel_cmd);
+    }
 }
 
 void phase_faults(struct motion *m)

@@ -3,10 +3,15 @@
 # came before), FP-068 (an override of limits ends with the first jog, for the tripped switch only),
 # FP-069 (a jog back inside is accepted), FP-070 (a position reached by jogging is legal), FP-071
 # (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others).
+import os
+import tempfile
+
 import kerf_motion as km
 from motion_bench import Machine
 
 OK, UNKNOWN, INVALID_COMMAND, INVALID_PARAMS, BAD_EXEC = range(5)
+log = tempfile.NamedTemporaryFile()
+os.environ["MOTION_BENCH_LOG"] = log.name
 m = Machine(jerk=5000.0, motmod="num_spindles=2 num_dio=4 num_aio=2", home=False, traj_jerk=5000.0)
 m.send(km.SET_NUM_SPINDLES, spindle=2)
 checks = 0
@@ -153,15 +158,15 @@ for normal, line in ((1, 4), (-1, 5)):
 m.rest()
 eq([round(x, 6) for x in m.joints_at()], [90, 60, 30], "the arc that stays inside")
 
-# ---- faults name joint, value and limit
+# ---- faults; joint, value and limit are in the log
 m.mode(km.FREE)
 m.set("joint.1.neg-lim-sw-in", 1)
 m.sleep(0.01)
-told("joint 1 on limit switch error (negative switch, position 60.00000)")
+told("joint 1 on limit switch error")
 eq(m.status()["enabled"], False, "off after a limit switch")
 m.send(km.OVERRIDE_LIMITS, joint=1)
 m.enable()
-for pin, text in (("joint.2.amp-fault-in", "joint 2 amplifier fault (position 30.00000)"),
+for pin, text in (("joint.2.amp-fault-in", "joint 2 amplifier fault"),
                   ("spindle.1.amp-fault-in", "spindle 1 amplifier fault")):
     m.set(pin, 1)
     m.sleep(0.01)
@@ -171,6 +176,15 @@ for pin, text in (("joint.2.amp-fault-in", "joint 2 amplifier fault (position 30
     m.sleep(0.01)
     m.send(km.ABORT)
     m.enable()
+m.send(km.SET_JOINT_MIN_FERROR, joint=0, minFerror=0)
+m.send(km.SET_JOINT_MAX_FERROR, joint=0, maxFerror=0.001)
+m.send(km.SET_JOINT_MOTOR_OFFSET, joint=0, motor_offset=0.5)  # the feedback does not know yet
+m.sleep(0.02)
+told("joint 0 following error")
+m.send(km.SET_JOINT_MAX_FERROR, joint=0, maxFerror=1)
+m.send(km.SET_JOINT_MIN_FERROR, joint=0, minFerror=1)
+m.send(km.ABORT)
+m.enable()
 m.set("motion.enable", 0)
 m.sleep(0.01)
 told("motion stopped by enable input")
@@ -313,4 +327,8 @@ eq(m.get("motion.digital-out-03"), False, "queued output with the move")
 m.send(km.SET_OFFSET, tool_offset=[1, 2, 3, 4, 5, 6, 7, 8, 9])
 m.sleep(0.002)
 eq([m.get(f"motion.tooloffset.{a}") for a in "xyzabcuvw"], [1, 2, 3, 4, 5, 6, 7, 8, 9], "tool offset pins")
+m.close()
+lines = [x[8:].strip() for x in open(log.name) if x.startswith("motion: joint")]
+eq(lines[:2], ["joint 1: negative limit switch at position 60.00000", "joint 2: amplifier fault at position 30.00000"], "log")
+eq(lines[2].startswith("joint 0: following error 0.50000, limit 0.00000 at velocity"), True, f"log {lines[2]}")
 print(f"{checks} checks")
