@@ -412,7 +412,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
         self.activate_ja_widget(self.settings.coordinates[0])
         self.show_title()
         initial = first_file or os.environ.get("AXIS_OPEN_FILE") or (self.settings.find("DISPLAY", "OPEN_FILE") or "").strip('"')
-        self.preview.camera.set_view(self.lathe_view() if self.settings.lathe else "p")
+        self.preview.set_view(self.lathe_view() if self.settings.lathe else "p")
         for name in ("feedrate", "rapidrate", "spindlerate"):
             self.set_override(name, 100)
         for words in self.ini.findall("DISPLAY", "TKPKG") or []:
@@ -451,6 +451,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
 
     def close(self):
         self.logger.stop()
+        self.logging.join(1.0)
         self.loader.close()
         for child, line in self.children:
             if "loadusr" not in line and child.poll() is None:

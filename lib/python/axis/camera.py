@@ -21,8 +21,11 @@ FIXED = {
     "x": ((0, 1, 0), (0, 0, 1), (1, 0, 0)),
     "y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
     "y2": ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
+    "lathe": ((0, 0, 1), (-1, 0, 0), (0, -1, 0)),
+    "lathe2": ((0, 0, 1), (1, 0, 0), (0, 1, 0)),
 }
-NUMBERS = {"z": 1, "z2": 2, "x": 3, "y": 4, "y2": 4, "p": 5}
+NUMBERS = {"z": 1, "z2": 2, "x": 3, "y": 4, "y2": 4, "lathe": 4, "lathe2": 4, "p": 5}
+LATHE = {"y": "lathe", "y2": "lathe2"}      # as the operator stands: Z to the right, X towards him or away
 CYCLE = ("z", "z2", "x", "y", "p")
 
 

@@ -12,7 +12,7 @@ import kerf_raster
 import numpy as np
 
 from . import scene
-from .camera import Camera
+from .camera import LATHE, Camera
 
 COLOURS = {
     "back": "#000000", "straight_feed": "#ffffff", "arc_feed": "#ffffff", "traverse": "#4c8080", "selected": "#00ffff",
@@ -113,7 +113,7 @@ class Preview(tk.Canvas):
     # -- views -----------------------------------------------------------------------------
 
     def set_view(self, name):
-        self.camera.set_view(name)
+        self.camera.set_view(LATHE.get(name, name) if self.s.lathe else name)
         self.fit()
 
     def fit(self):
@@ -193,7 +193,7 @@ class Preview(tk.Canvas):
         o, r = self.options, self.layer
         r.clear(rgba(self.colours["back"]))
         if o.grid_size > 0:
-            plane = {"x": (1, 2), "y": (0, 2), "y2": (0, 2)}.get(self.camera.view, (0, 1))
+            plane = {"x": (1, 2), "y": (0, 2), "y2": (0, 2), "lathe": (0, 2), "lathe2": (0, 2)}.get(self.camera.view, (0, 1))
             rotation = self.stat.rotation_xy if self.stat else 0.0
             self.lines(r, scene.grid(o.grid_size, self.camera.centre, 2 * self.camera.size, plane, rotation), "grid", matrix)
         if self.program and o.show_program:
