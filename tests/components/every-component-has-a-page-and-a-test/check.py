@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Each component of src/hal/components is run by a table, or by the test named here, and has a
+"""Each component of src/hal is run by a table, or by the test named here, and has a
 manual page that names all its functions, pins and parameters, with types and directions."""
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from harness import Session  # noqa: E402
 from tables import read  # noqa: E402
 
 TOP = Path("../../..").resolve()
+FOLDERS = ["src/hal/components/*.comp", "src/hal/components/*.c"]
+ELSEWHERE = ["src/hal/threads.c", "src/hal/stream/sampler.c", "src/hal/stream/streamer.c"]
 # Tested elsewhere.
 OTHER = {
     "histobinstream": "tests/components/histograms-stream-to-programs",
@@ -23,16 +25,20 @@ OTHER = {
     "pushmsg": "tests/components/messages-are-printed",
     "plasmac": "tests/components/plasmac-cuts",
     "raster": "tests/components/raster-follows-its-program",
+    "sampler": "tests/hal/sampler-and-streamer-move-values-cycle-by-cycle",
     "sim_joint": "tests/homing",
+    "streamer": "tests/hal/sampler-and-streamer-move-values-cycle-by-cycle",
     "thermistor": "tests/components/thermistor-measures",
+    "threads": "tests/hal/threads-are-made-as-asked",
 }
 # What C components need to show all their pins.
 LOADS = {
     "boss_plc": ["debug=1"], "counter": [], "debounce": ["cfg=2"], "demux_generic": ["config=bb4,ff2,su2,us2"],
     "encoder": [], "encoder_ratio": [], "enum": ["enums=E;A;B,D;C"], "lcd": ["fmt_strings=%f%d%u%b10"],
     "matrix_kb": ["config=2x2s"], "mux_generic": ["config=bb4,ff2,su2,us2"], "pid": ["debug=1"],
-    "pushmsg": ["msgs=i|name|text {f:value}"], "pwmgen": ["output_type=0,1,2"], "siggen": [], "sim_encoder": [],
-    "spindle": ["numgears=2"], "stepgen": ["step_type=0,1,2,11", "ctrl_type=p,v,p,p"], "supply": [],
+    "pushmsg": ["msgs=i|name|text {f:value}"], "pwmgen": ["output_type=0,1,2"], "siggen": [], "sampler": ["depth=4", "cfg=fbsulk"],
+    "sim_encoder": [], "spindle": ["numgears=2"], "stepgen": ["step_type=0,1,2,11", "ctrl_type=p,v,p,p"],
+    "streamer": ["depth=4", "cfg=fbsulk"], "supply": [], "threads": ["name1=a", "name2=b", "period2=2000000"],
     "watchdog": ["num_inputs=2"], "weighted_sum": ["wsum_sizes=2"],
 }
 DIRECTION = {"IN": "in", "OUT": "out", "I/O": "io", "RO": "r", "RW": "rw"}
@@ -72,8 +78,8 @@ def check_page(name: str, folder: str) -> None:
 
 
 def main() -> int:
-    sources = {p.stem: p for p in sorted((TOP / "src/hal/components").glob("*.c")) + sorted(
-        (TOP / "src/hal/components").glob("*.comp"))}
+    sources = {p.stem: p for folder in FOLDERS for p in sorted(TOP.glob(folder))}
+    sources |= {Path(name).stem: TOP / name for name in ELSEWHERE}
     tested = {t.module for path in Path("..").glob("*/*.table") for t in read(str(path))}
     for name, source in sources.items():
         section = 1 if "option userspace" in source.read_text() else 9
