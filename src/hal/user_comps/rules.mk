@@ -5,3 +5,4 @@ $(eval $(call script,z_level_compensation,src/hal/user_comps/z_level_compensatio
 $(eval $(call script,mqtt-publisher,src/hal/user_comps/mqtt_publisher.py))
 $(eval $(call script,hal_input,src/hal/user_comps/hal_input.py))
 $(eval $(call script,sendkeys,src/hal/user_comps/sendkeys.py))
+$(eval $(call script,sim_pin,src/hal/user_comps/sim_pin.py))
