@@ -42,8 +42,8 @@ GROUPS = {
     "Spindles and tools": "spindle gearchange spindle_monitor orient carousel boss_plc",
     "Joints and axes": "homemod gantry anglejog eoffset_per_angle moveoff z_level_compensation",
     "Threads and streams": "threads sampler streamer",
-    "Simulation and tests": """sim-torch sim_pin sim_encoder sim_spindle sim_home_switch sim_axis_hardware sim_joint
-        sim_parport sphereprobe
+    "Simulation and tests": """sim-torch sim_pin simulate_probe sim_encoder sim_spindle sim_home_switch
+        sim_axis_hardware sim_joint sim_parport sphereprobe
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
