@@ -31,8 +31,8 @@ WARN     := -Wall -Wextra $(WERROR)
 INCLUDES := -I$(T)/include -Isrc -Isrc/rtapi -Isrc/hal
 DEFINES  := -D_GNU_SOURCE -DKERF_VERSION='"$(VERSION)"'
 COMMON   := $(WARN) $(SAN) $(DEFINES) $(INCLUDES) -fPIC -MMD -MP
-# Realtime modules: bounded stack frames, exact sin/cos pairs, no fast-math.
-RTFLAGS  := -DRTAPI -DUSPACE -Drealtime -DSIM -D__MODULE__ -Wframe-larger-than=2560 \
+# Realtime modules: bounded stack frames (sanitizers need more), exact sin/cos pairs, no fast-math.
+RTFLAGS  := -DRTAPI -DUSPACE -Drealtime -DSIM -D__MODULE__ $(if $(SAN),,-Wframe-larger-than=2560) \
             -fno-builtin-sin -fno-builtin-cos -fno-builtin-sincos
 ULFLAGS  := -DULAPI -DUSPACE -fvisibility=default
 RPATH     = -Wl,-rpath,'$$ORIGIN/../lib'
