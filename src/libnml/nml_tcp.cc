@@ -148,7 +148,9 @@ private:
         addrinfo want{}, *found = nullptr;
         want.ai_socktype = SOCK_STREAM;
         std::string port = std::to_string(instance_port(conn_.buffer.tcp_port));
-        if (getaddrinfo(conn_.buffer.host.c_str(), port.c_str(), &want, &found) != 0) return false;
+        // localhost is this computer, with or without /etc/hosts (RFC 6761)
+        const std::string host = conn_.buffer.host == "localhost" ? "127.0.0.1" : conn_.buffer.host;
+        if (getaddrinfo(host.c_str(), port.c_str(), &want, &found) != 0) return false;
         for (addrinfo *a = found; a && fd_ < 0; a = a->ai_next) {
             int fd = socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, a->ai_protocol);
             if (fd < 0) continue;
