@@ -46,6 +46,14 @@ for line, shape in (("SET TIMESTAMP ON", local), ("SET TIMESTAMP ON OFF", local)
     a.say("SET TIMESTAMP OFF")
 print(re.fullmatch(r"TIME \d+\.\d{6}", a.say("GET TIME")[0]) is not None)
 
+def own_address():
+    """An address of this computer that others see, or a loopback one where its name has none."""
+    try:
+        return socket.gethostbyname(socket.gethostname())
+    except OSError:
+        return "127.0.0.1"
+
+
 # The two address families of a default server, and a second program on the same port.
 six = Server()
 with socket.socket(socket.AF_INET6) as s:
@@ -56,8 +64,8 @@ with socket.socket(socket.AF_INET6) as s:
         print("IPv6 works" if not Path("/proc/net/if_inet6").exists() else e)
 print("elsewhere:", end=" ")
 try:
-    socket.create_connection((socket.gethostbyname(socket.gethostname()), six.port), 1)
-    print("let in" if not socket.gethostbyname(socket.gethostname()).startswith("127.") else "not")
+    socket.create_connection((own_address(), six.port), 1)
+    print("let in" if not own_address().startswith("127.") else "not")
 except OSError:
     print("not")
 again = clock.run(["linuxcncrsh", "-q", "-p", str(six.port), "--", "-ini", "mill.ini"], stderr=subprocess.PIPE, text=True)
@@ -79,7 +87,7 @@ first = answer("mine")
 print("answer:", a.say(f"HELLO {first} x 1"), "again:", a.say(f"HELLO {first} x 1"), "wrong:", a.say(f"HELLO {answer('yours')} x 1"))
 print("enable:", a.say(f"HELLO {answer('mine')} x 1"), a.say(f"SET ENABLE {answer('minetoo')}", "GET ENABLE"))
 print("clear text from this computer:", a.say("HELLO mine x 1", "SET ENABLE minetoo", "GET ENABLE"))
-here = socket.gethostbyname(socket.gethostname())
+here = own_address()
 if not here.startswith("127."):
     far = socket.create_connection((here, wide.port))
     far.sendall(b"HELLO mine x 1\r\n")
