@@ -41,7 +41,7 @@ END
 echo "# programs"
 linuxcncmkdesktop /x/mill.ini "My Mill" "at the window" | sed "s|Exec=.*/linuxcnc |Exec=BIN/linuxcnc |"
 linuxcncmkdesktop /x/a.demo Demo; linuxcncmkdesktop /x/a.txt Text; linuxcncmkdesktop 2>&1; echo "=> $?"
-linuxcnc_info -s; grep -c -E '^ +(date|release|LINUXCNCVERSION|RTS): .' /tmp/linuxcnc_info.txt
+report=$(linuxcnc_info -s); grep -c -E '^ +(date|release|LINUXCNCVERSION|RTS): .' "${report#linuxcnc_info: }"
 echo "# window"
 ../../../lib/with-display /usr/bin/python3 - <<'END'
 import dataclasses, tkinter as tk
