@@ -130,6 +130,7 @@ def run(script):
     status = 0
     try:
         operator.wait(0.3)
+        operator.until(lambda: not rest or (app.loaded_file and not app.loading), "the program is opened")
         script(operator)
     except Exception:
         traceback.print_exc(file=sys.stdout)
