@@ -23,6 +23,7 @@
 #include <limits.h>
 #include <linux/futex.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,6 +75,7 @@ struct vclock {
     uint64_t last_number;
     int64_t anchor_now_ns, anchor_wall_ns; /* the pace counts from here */
     double pace;
+    int cpu;                    /* that participants stay on; -1: no matter */
     _Atomic int used;           /* places 0..used-1 have ever been used */
     _Atomic int holding;        /* places that hold time */
     struct place places[MAX_PLACES];
@@ -406,7 +408,7 @@ static int64_t look_after_ns(const struct place *p)
 static bool spin_for_turn(struct place *p)
 {
     static _Thread_local int budget = SPIN_MAX, skipped;
-    if (budget < 8 && ++skipped < SPIN_PROBE) {
+    if (clk->cpu >= 0 || (budget < 8 && ++skipped < SPIN_PROBE)) {
         return false;
     }
     int limit = budget < 8 ? SPIN_MAX : budget;
@@ -545,6 +547,41 @@ static void process_end(void)
     kerf_instance_unlock(handle);
 }
 
+/* One participant runs at a time: on one CPU the next takes over in microseconds, while
+ * another CPU that fell asleep would have to wake up first, at every switch. The CPU of
+ * this instance, of those its maker may use; KERF_CLOCK_CPU=N: the N-th of them, "any": -1. */
+static int choose_cpu(void)
+{
+    cpu_set_t allowed;
+    const char *wish = getenv("KERF_CLOCK_CPU");
+    if ((wish && strcmp(wish, "any") == 0) || sched_getaffinity(0, sizeof allowed, &allowed) != 0) {
+        return -1;
+    }
+    int count = CPU_COUNT(&allowed);
+    if (count < 1) {
+        return -1;
+    }
+    int nth = (int)((wish ? strtoul(wish, NULL, 10) : (unsigned long)getpid()) % (unsigned long)count);
+    for (int cpu = 0; cpu < CPU_SETSIZE; cpu++) {
+        if (CPU_ISSET(cpu, &allowed) && nth-- == 0) {
+            return cpu;
+        }
+    }
+    return -1;
+}
+
+/* Keeps the calling thread, and its children, on the CPU of this instance. */
+static void stay_on_cpu(void)
+{
+    if (clk->cpu < 0) {
+        return;
+    }
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(clk->cpu, &set);
+    sched_setaffinity(0, sizeof set, &set); /* not allowed: slower, no worse */
+}
+
 static void segment_init(double pace)
 {
     pthread_mutexattr_t attr;
@@ -558,6 +595,7 @@ static void segment_init(double pace)
     clk->pace = pace;
     clk->anchor_now_ns = START_NS;
     clk->anchor_wall_ns = wall();
+    clk->cpu = pace > 0 ? -1 : choose_cpu();
     clk->magic = VCLOCK_MAGIC;
 }
 
@@ -675,6 +713,9 @@ static bool take_given(const char *name, int prio, const char *value)
 
 int vclock_join(const char *name, int prio, const char *place)
 {
+    if (mine < 0) {
+        stay_on_cpu();
+    }
     if (mine >= 0 || take_given(name, prio, place)) {
         return 0;
     }
@@ -778,6 +819,7 @@ void vclock_place_drop(int place)
 
 void vclock_place_adopt(int place, const _Atomic bool *cancel)
 {
+    stay_on_cpu();
     own(place);
     await_turn(&clk->places[place], cancel);
 }

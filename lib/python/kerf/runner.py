@@ -330,16 +330,6 @@ def print_report(report, picture):
     print(f"Picture            {picture}")
 
 
-def share_one_cpu():
-    """Keeps this process and its children on one of the CPUs that it may use.
-
-    In virtual time one participant runs at any moment. On one CPU the next one takes over in
-    microseconds; another CPU that fell asleep would have to wake up first, in every cycle.
-    """
-    allowed = sorted(os.sched_getaffinity(0))
-    os.sched_setaffinity(0, {allowed[os.getpid() % len(allowed)]})
-
-
 def main(argv):
     if "-ini" in argv and "KERF_RUN" in os.environ:
         return run_display(argv)
@@ -378,8 +368,6 @@ def main(argv):
         env.setdefault("KERF_INSTANCE", f"run{os.getpid()}")
         log = Path(scratch) / "log"
         with open(log, "w") as out:
-            if not o.realtime:
-                share_one_cpu()
             child = subprocess.Popen(["linuxcnc", "-r", "-D", "kerf-run", str(ini_path)], env=env,
                                      stdin=subprocess.DEVNULL, stdout=out)
             for sig in (signal.SIGINT, signal.SIGTERM):
