@@ -8,8 +8,7 @@
  * Method:  rods of length L from carriages on a circle of radius R; forward is the
  *          lower intersection of three spheres.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a linear delta robot");
@@ -51,28 +50,16 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "lineardeltakins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("lineardeltakins");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     if (!pins ||
         hal_pin_new_real(comp_id, HAL_IN, &pins->R, LINEARDELTA_R, "lineardeltakins.R") < 0 ||
-        hal_pin_new_real(comp_id, HAL_IN, &pins->L, LINEARDELTA_L, "lineardeltakins.L") < 0) {
-        hal_exit(comp_id);
+        hal_pin_new_real(comp_id, HAL_IN, &pins->L, LINEARDELTA_L, "lineardeltakins.L") < 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -6,8 +6,7 @@
  * Thread:  servo
  * Method:  inverse of the matrix by cofactors; a singular matrix fails.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Calibrated kinematics of three axes");
@@ -60,31 +59,19 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "matrixkins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
     static const char xyz[] = "xyz";
     int r = 0;
-    comp_id = hal_init("matrixkins");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     for (int i = 0; pins && i < 3; i++)
         for (int k = 0; k < 3; k++)
             r |= hal_param_new_real(comp_id, HAL_RW, &pins->C[i][k], i == k, "matrixkins.C_%c%c", xyz[i], xyz[k]);
-    if (!pins || r < 0 || hal_pin_new_bool(comp_id, HAL_OUT, &pins->dummy, 1, "matrixkins.0.dummy") < 0) {
-        hal_exit(comp_id);
+    if (!pins || r < 0 || hal_pin_new_bool(comp_id, HAL_OUT, &pins->dummy, 1, "matrixkins.0.dummy") < 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -9,8 +9,7 @@
  *          Forward is the exact inverse of inverse (the peer's is not when C is turned
  *          and B, U or V are used, or U and B together: docs/compatibility.md).
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a mill with tilting head and turning table");
@@ -64,28 +63,16 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "maxkins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("maxkins");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     if (!pins ||
         hal_pin_new_real(comp_id, HAL_IO, &pins->pivot_length, 0.666, "maxkins.pivot-length") < 0 ||
-        hal_pin_new_bool(comp_id, HAL_IN, &pins->conventional_directions, 0, "maxkins.conventional-directions") < 0) {
-        hal_exit(comp_id);
+        hal_pin_new_bool(comp_id, HAL_IN, &pins->conventional_directions, 0, "maxkins.conventional-directions") < 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -6,8 +6,8 @@
  * Thread:  servo
  * Method:  mill: X Y Z A = joints 0 to 3; lathe: X = joint 2, Y = -joint 1, Z = joint 0.
  */
+#include "kins_main.h"
 #include "ownswitch.h"
-#include "rtapi_app.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Switchable kinematics: mill and lathe");
@@ -53,16 +53,6 @@ int kinematicsInverse(const EmcPose *world, double *j, const KINEMATICS_INVERSE_
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-int kinematicsSwitchable(void) { return 1; }
-int kinematicsSwitch(int type) { return ownswitch_switch(type, 0); }
-
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsSwitchable);
-EXPORT_SYMBOL(kinematicsSwitch);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
-
 static void fdemo(void *arg, long period)
 {
     static int told;
@@ -75,22 +65,15 @@ static void fdemo(void *arg, long period)
     hal_set_si32(pins->fpin, hal_get_si32(pins->fpin) + 1);
 }
 
-static int comp_id;
+const char kins_name[] = "millturn";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("millturn");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     if (!pins || hal_pin_new_ui32(comp_id, HAL_IN, &pins->in, 0, "millturn.in") < 0 ||
         hal_pin_new_ui32(comp_id, HAL_OUT, &pins->out, 0, "millturn.out") < 0 ||
         hal_pin_new_si32(comp_id, HAL_OUT, &pins->fpin, 0, "millturn.0.fpin") < 0 ||
-        hal_export_functf(fdemo, NULL, 1, 0, comp_id, "millturn.0.fdemo") < 0 || ownswitch_pins(comp_id, 2) != 0) {
-        hal_exit(comp_id);
+        hal_export_functf(fdemo, NULL, 1, 0, comp_id, "millturn.0.fdemo") < 0 || ownswitch_pins(comp_id, 2) != 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -7,7 +7,7 @@
 #ifndef KERF_OWNSWITCH_H
 #define KERF_OWNSWITCH_H
 
-#include "kins_common.h"
+#include "kins_main.h"
 
 #define OWNSWITCH_MAX 3
 
@@ -26,11 +26,12 @@ static int ownswitch_pins(int comp_id, int types)
     return r < 0 ? -1 : 0;
 }
 
+int kinematicsSwitchable(void) { return 1; }
+
 /* An unknown type is refused and the old one stays (the peer falls out of all types). */
-static int ownswitch_switch(int type, int quiet)
+int kinematicsSwitch(int type)
 {
-    if (!quiet)
-        rtapi_print_msg(RTAPI_MSG_INFO, "kinematicsSwitch(): type=%d\n", type);
+    rtapi_print_msg(RTAPI_MSG_INFO, "kinematicsSwitch(): type=%d\n", type);
     if (type < 0 || type >= type_count) {
         rtapi_print_msg(RTAPI_MSG_ERR, "kinematicsSwitch:BAD VALUE <%d>\n", type);
         return -1;
@@ -40,5 +41,8 @@ static int ownswitch_switch(int type, int quiet)
         hal_set_bool(is_type_pins[n], n == type);
     return 0;
 }
+
+EXPORT_SYMBOL(kinematicsSwitchable);
+EXPORT_SYMBOL(kinematicsSwitch);
 
 #endif

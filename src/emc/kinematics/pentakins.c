@@ -7,8 +7,7 @@
  * Method:  inverse: distance of a base point to a ring about the effector's axis;
  *          forward: Newton's method with a Jacobian of central differences.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a pentapod");
@@ -112,21 +111,19 @@ int kinematicsForward(const double *joint, EmcPose *world, const KINEMATICS_FORW
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "pentakins";
 
-static int make_pins(void)
+int kins_setup(int comp_id)
 {
     static const double x[] = {-418.03, 417.96, -418.03, 417.96, -0.06};
     static const double y[] = {324.56, 324.56, -325.44, -325.44, -492.96};
     static const double z[] = {-185.5, -159.5, -67.5, -41.5, -14.0};
     int r = 0, id = comp_id;
+    pins = hal_malloc(sizeof(*pins));
+    if (!pins)
+        return -1;
     for (int i = 0; i < STRUTS; i++) {
         r |= hal_param_new_real(id, HAL_RW, &pins->base[i][0], x[i], "pentakins.base.%d.x", i);
         r |= hal_param_new_real(id, HAL_RW, &pins->base[i][1], y[i], "pentakins.base.%d.y", i);
@@ -142,18 +139,3 @@ static int make_pins(void)
     r |= hal_pin_new_real(id, HAL_IN, &pins->tool_offset, 0, "pentakins.tool-offset");
     return r < 0 ? -1 : 0;
 }
-
-int rtapi_app_main(void)
-{
-    comp_id = hal_init("pentakins");
-    if (comp_id < 0)
-        return comp_id;
-    pins = hal_malloc(sizeof(*pins));
-    if (!pins || make_pins() != 0) {
-        hal_exit(comp_id);
-        return -1;
-    }
-    return hal_ready(comp_id);
-}
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

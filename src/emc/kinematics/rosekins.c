@@ -8,8 +8,7 @@
  * Method:  polar coordinates; whole turns follow from the joint command of the cycle
  *          before, so that asking for a far point does not lose count.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a rose engine");
@@ -52,29 +51,17 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "rosekins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("rosekins");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     if (!pins ||
         hal_pin_new_real(comp_id, HAL_OUT, &pins->revolutions, 0, "rosekins.revolutions") < 0 ||
         hal_pin_new_real(comp_id, HAL_OUT, &pins->theta_degrees, 0, "rosekins.theta_degrees") < 0 ||
-        hal_pin_new_real(comp_id, HAL_OUT, &pins->bigtheta_degrees, 0, "rosekins.bigtheta_degrees") < 0) {
-        hal_exit(comp_id);
+        hal_pin_new_real(comp_id, HAL_OUT, &pins->bigtheta_degrees, 0, "rosekins.bigtheta_degrees") < 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

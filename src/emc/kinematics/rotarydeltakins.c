@@ -7,8 +7,7 @@
  * Thread:  servo
  * Method:  knees on three circles; forward is the lower intersection of three spheres.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a rotary delta robot");
@@ -51,30 +50,18 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "rotarydeltakins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("rotarydeltakins");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     if (!pins ||
         hal_pin_new_real(comp_id, HAL_IN, &pins->pfr, ROTARYDELTA_PFR, "rotarydeltakins.platformradius") < 0 ||
         hal_pin_new_real(comp_id, HAL_IN, &pins->tl, ROTARYDELTA_TL, "rotarydeltakins.thighlength") < 0 ||
         hal_pin_new_real(comp_id, HAL_IN, &pins->sl, ROTARYDELTA_SL, "rotarydeltakins.shinlength") < 0 ||
-        hal_pin_new_real(comp_id, HAL_IN, &pins->fr, ROTARYDELTA_FR, "rotarydeltakins.footradius") < 0) {
-        hal_exit(comp_id);
+        hal_pin_new_real(comp_id, HAL_IN, &pins->fr, ROTARYDELTA_FR, "rotarydeltakins.footradius") < 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -6,8 +6,7 @@
  * Thread:  servo
  * Method:  rotation of (x, y) by joint 5.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a rotating table");
@@ -41,21 +40,12 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "rotatekins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("rotatekins");
-    if (comp_id < 0)
-        return comp_id;
-    return hal_ready(comp_id);
+    (void)comp_id;
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -5,10 +5,12 @@ KINS_UTIL := $(KINS)/kins_util.c src/emc/posemath/posemath.c src/emc/posemath/em
 SWITCHKINS := $(KINS)/switchkins.c $(KINS)/switchkins_util.c $(KINS)/userkfuncs.c $(KINS_UTIL)
 
 $(eval $(call rtmodule,trivkins,$(KINS)/trivkins.c $(KINS_UTIL)))
+KINS_MAIN := $(KINS)/kins_main.c $(KINS_UTIL)
 KINS_PLAIN := corexykins rotatekins maxkins rosekins tripodkins scorbot-kins lineardeltakins rotarydeltakins \
-    xyzab_tdr_kins xyzacb_trsrn xyzbca_trsrn millturn matrixkins
-$(foreach k,$(KINS_PLAIN),$(eval $(call rtmodule,$(k),$(KINS)/$(k).c $(KINS_UTIL))))
-$(eval $(call rtmodule,pentakins,$(KINS)/pentakins.c $(KINS)/kins_solve.cc $(KINS_UTIL),$(EIGEN_CFLAGS)))
+    xyzab_tdr_kins millturn matrixkins
+$(foreach k,$(KINS_PLAIN),$(eval $(call rtmodule,$(k),$(KINS)/$(k).c $(KINS_MAIN))))
+$(foreach k,xyzacb_trsrn xyzbca_trsrn,$(eval $(call rtmodule,$(k),$(KINS)/$(k).c $(KINS)/trsrn.c $(KINS_MAIN))))
+$(eval $(call rtmodule,pentakins,$(KINS)/pentakins.c $(KINS)/kins_solve.cc $(KINS_MAIN),$(EIGEN_CFLAGS)))
 
 $(foreach k,5axiskins scarakins,$(eval $(call rtmodule,$(k),$(KINS)/$(k).c $(SWITCHKINS))))
 $(foreach k,xyzac-trt-kins xyzbc-trt-kins,$(eval $(call rtmodule,$(k),$(KINS)/$(k).c $(KINS)/trtfuncs.c $(SWITCHKINS))))

@@ -6,8 +6,7 @@
  * Thread:  servo
  * Method:  two links of 221 mm in a vertical plane turned by joint 0.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of the Scorbot ER III");
@@ -63,21 +62,12 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "scorbot-kins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("scorbot-kins");
-    if (comp_id < 0)
-        return comp_id;
-    return hal_ready(comp_id);
+    (void)comp_id;
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

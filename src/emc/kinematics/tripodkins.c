@@ -7,8 +7,7 @@
  * Thread:  servo
  * Method:  distances to A(0,0), B(Bx,0), C(Cx,Cy); trilateration.
  */
-#include "kins_common.h"
-#include "rtapi_app.h"
+#include "kins_main.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a tripod");
@@ -52,29 +51,17 @@ int kinematicsInverse(const EmcPose *world, double *joint, const KINEMATICS_INVE
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-
 KINS_NOT_SWITCHABLE
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
 
-static int comp_id;
+const char kins_name[] = "tripodkins";
 
-int rtapi_app_main(void)
+int kins_setup(int comp_id)
 {
-    comp_id = hal_init("tripodkins");
-    if (comp_id < 0)
-        return comp_id;
     pins = hal_malloc(sizeof(*pins));
     if (!pins ||
         hal_pin_new_real(comp_id, HAL_IO, &pins->Bx, 1.0, "tripodkins.Bx") < 0 ||
         hal_pin_new_real(comp_id, HAL_IO, &pins->Cx, 1.0, "tripodkins.Cx") < 0 ||
-        hal_pin_new_real(comp_id, HAL_IO, &pins->Cy, 1.0, "tripodkins.Cy") < 0) {
-        hal_exit(comp_id);
+        hal_pin_new_real(comp_id, HAL_IO, &pins->Cy, 1.0, "tripodkins.Cy") < 0)
         return -1;
-    }
-    return hal_ready(comp_id);
+    return 0;
 }
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

@@ -7,8 +7,8 @@
  * Method:  the work turns about the B axis, then about A; x-offset has no effect
  *          (it cancels, as in the peer).
  */
+#include "kins_main.h"
 #include "ownswitch.h"
-#include "rtapi_app.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a mill with a double rotary table, A and B");
@@ -63,21 +63,14 @@ int kinematicsInverse(const EmcPose *world, double *j, const KINEMATICS_INVERSE_
     return 0;
 }
 
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-int kinematicsSwitchable(void) { return 1; }
-int kinematicsSwitch(int type) { return ownswitch_switch(type, 0); }
+const char kins_name[] = "xyzab_tdr_kins";
 
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsSwitchable);
-EXPORT_SYMBOL(kinematicsSwitch);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
-
-static int comp_id;
-
-static int make_pins(void)
+int kins_setup(int comp_id)
 {
     int r = 0, id = comp_id;
+    pins = hal_malloc(sizeof(*pins));
+    if (!pins)
+        return -1;
     r |= hal_pin_new_real(id, HAL_IN, &pins->tool_offset_z, 0, "xyzab_tdr_kins.tool-offset-z");
     r |= hal_pin_new_real(id, HAL_IN, &pins->x_offset, 0, "xyzab_tdr_kins.x-offset");
     r |= hal_pin_new_real(id, HAL_IN, &pins->z_offset, 0, "xyzab_tdr_kins.z-offset");
@@ -87,18 +80,3 @@ static int make_pins(void)
     r |= hal_pin_new_si32(id, HAL_OUT, &pins->dummy, 0, "xyzab-tdr-kins.0.dummy");
     return r < 0 ? -1 : ownswitch_pins(id, 2);
 }
-
-int rtapi_app_main(void)
-{
-    comp_id = hal_init("xyzab_tdr_kins");
-    if (comp_id < 0)
-        return comp_id;
-    pins = hal_malloc(sizeof(*pins));
-    if (!pins || make_pins() != 0) {
-        hal_exit(comp_id);
-        return -1;
-    }
-    return hal_ready(comp_id);
-}
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }

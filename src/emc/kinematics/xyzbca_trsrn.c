@@ -8,7 +8,6 @@
  *          takes those of the cycle before: docs/compatibility.md).
  */
 #include "trsrn.h"
-#include "rtapi_app.h"
 
 MODULE_AUTHOR("Kerf");
 MODULE_DESCRIPTION("Kinematics of a mill with rotary table B and a nutating spindle");
@@ -66,67 +65,10 @@ static void tool_inverse(const struct trsrn *f, const PmCartesian *Q, double *J)
           f->s + f->L * f->t - f->Lz;
 }
 
-int kinematicsForward(const double *j, EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags,
-                      KINEMATICS_INVERSE_FLAGS *iflags)
-{
-    EmcPose p = {{j[0], j[1], j[2]}, j[3], j[4], j[5], 0, 0, 0};
-    (void)fflags;
-    (void)iflags;
-    if (type_now == TCP) {
-        struct trsrn f = trsrn_terms(j[5], j[3], j[4], 0);
-        p.tran = tcp_forward(&f, j);
-    } else if (type_now == TOOL) {
-        struct trsrn f = trsrn_terms(hal_get_real(pins->primary), hal_get_real(pins->secondary), 0.0, 0);
-        p.tran = tool_forward(&f, j);
-    }
-    *world = p;
-    return 0;
-}
+const char kins_name[] = "xyzbca_trsrn";
 
-int kinematicsInverse(const EmcPose *world, double *j, const KINEMATICS_INVERSE_FLAGS *iflags,
-                      KINEMATICS_FORWARD_FLAGS *fflags)
-{
-    (void)iflags;
-    (void)fflags;
-    j[3] = world->a;
-    j[4] = world->b;
-    j[5] = world->c;
-    if (type_now == TCP) {
-        struct trsrn f = trsrn_terms(j[5], j[3], j[4], 0);
-        tcp_inverse(&f, &world->tran, j);
-    } else if (type_now == TOOL) {
-        struct trsrn f = trsrn_terms(hal_get_real(pins->primary), hal_get_real(pins->secondary), 0.0, 0);
-        tool_inverse(&f, &world->tran, j);
-    } else {
-        j[0] = world->tran.x;
-        j[1] = world->tran.y;
-        j[2] = world->tran.z;
-    }
-    return 0;
-}
-
-KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
-int kinematicsSwitchable(void) { return 1; }
-int kinematicsSwitch(int type) { return ownswitch_switch(type, 0); }
-
-EXPORT_SYMBOL(kinematicsType);
-EXPORT_SYMBOL(kinematicsSwitchable);
-EXPORT_SYMBOL(kinematicsSwitch);
-EXPORT_SYMBOL(kinematicsForward);
-EXPORT_SYMBOL(kinematicsInverse);
-
-static int comp_id;
-
-int rtapi_app_main(void)
-{
-    comp_id = hal_init("xyzbca_trsrn");
-    if (comp_id < 0)
-        return comp_id;
-    if (trsrn_pins(comp_id, "xyzbca_trsrn_kins", "xyzbca-trsrn.0.dummy", 'x') != 0) {
-        hal_exit(comp_id);
-        return -1;
-    }
-    return hal_ready(comp_id);
-}
-
-void rtapi_app_exit(void) { hal_exit(comp_id); }
+const struct trsrn_mill trsrn_mill = {
+    .prefix = "xyzbca_trsrn_kins", .dummy = "xyzbca-trsrn.0.dummy", .side = 'x', .table = 4, .nutating = 3,
+    .tcp_forward = tcp_forward, .tcp_inverse = tcp_inverse,
+    .tool_forward = tool_forward, .tool_inverse = tool_inverse,
+};
