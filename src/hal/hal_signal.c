@@ -137,11 +137,11 @@ int hal_signal_delete(const char *name)
     return result;
 }
 
-/* The rules of sharing; 0, or -EINVAL after a message. */
-static int may_link(const struct hal_pin *pin, const struct hal_sig *sig)
+/* The rules of sharing; 0, or -EINVAL after a message that uses the caller's name of the pin. */
+static int may_link(const struct hal_pin *pin, const struct hal_sig *sig, const char *pin_name)
 {
     if (pin->type != sig->type) {
-        halp_err("HAL: ERROR: type mismatch '%s' <- '%s'\n", pin->o.name, sig->o.name);
+        halp_err("HAL: ERROR: type mismatch '%s' <- '%s'\n", pin_name, sig->o.name);
     } else if (pin->dir == HAL_OUT && (sig->writers > 0 || sig->bidirs > 0)) {
         halp_err("HAL: ERROR: signal '%s' already has output or I/O pin(s)\n", sig->o.name);
     } else if (pin->dir == HAL_IO && pin->type == HAL_PORT) {
@@ -189,7 +189,7 @@ int hal_link(const char *pin_name, const char *sig_name)
     } else if (pin->signal) {
         const struct hal_sig *other = halp_ptr(pin->signal);
         halp_err("HAL: ERROR: pin '%s' is linked to '%s', cannot link to '%s'\n", pin_name, other->o.name, sig_name);
-    } else if (may_link(pin, sig) == 0) {
+    } else if (may_link(pin, sig, pin_name) == 0) {
         halp_change();
         if (pin->type != HAL_PORT && sig->writers == 0 && sig->bidirs == 0 &&
             (pin->dir != HAL_IN || sig->readers == 0)) {

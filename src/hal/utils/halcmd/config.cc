@@ -213,20 +213,21 @@ struct NetState {
         q.name = pin.c_str();
         q.qtype = HAL_QTYPE_PIN;
         if (hal_getref_p(&q) != 0) return strf("Pin '%s' does not exist", pin.c_str());
+        const char *current = q.name; // its alias, if it has one
         if (q.pp.signal) {
             if (signal == q.pp.signal) return "";
-            return strf("Pin '%s' was already linked to signal '%s'", pin.c_str(), q.pp.signal);
+            return strf("Pin '%s' was already linked to signal '%s'", current, q.pp.signal);
         }
         if (type == HAL_TYPE_UNSPECIFIED) type = q.pp.type;
         if (type != q.pp.type)
             return strf("Signal '%s' of type '%s' cannot add pin '%s' of type '%s'", signal.c_str(), type_word(type),
-                        pin.c_str(), type_word(q.pp.type));
+                        current, type_word(q.pp.type));
         const std::string &other = !writer.empty() || q.pp.dir != HAL_OUT ? writer : bidir;
         if (q.pp.dir != HAL_IN && !other.empty())
             return strf("Signal '%s' can not add %s pin '%s', it already has %s pin '%s'", signal.c_str(),
-                        dir_word(q.pp.dir), pin.c_str(), &other == &writer ? "OUT" : "I/O", other.c_str());
-        if (q.pp.dir == HAL_OUT) writer = pin;
-        if (q.pp.dir == HAL_IO) bidir = pin;
+                        dir_word(q.pp.dir), current, &other == &writer ? "OUT" : "I/O", other.c_str());
+        if (q.pp.dir == HAL_OUT) writer = current;
+        if (q.pp.dir == HAL_IO) bidir = current;
         return "";
     }
 };
