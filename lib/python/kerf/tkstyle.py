@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""How the Tk programs look: fonts that follow the screen, a light and a dark set of colours.
+
+    root = tk.Tk(className="Halshow")
+    style = tkstyle.apply(root)         # once, before the first widget
+    style.colours["value"], style.px(8)
+
+Environment: KERF_THEME=light|dark (else what AXIS remembers), KERF_SCALE=1 to 3 (else from the screen).
+"""
+
+import configparser
+import os
+import sys
+import tkinter as tk
+import tkinter.font
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+from tkinter import ttk
+
+LIGHT = {"face": "#eceae6", "ink": "#1c1c1a", "field": "#ffffff", "line": "#b8b4ac", "pressed": "#dcd8d0", "select": "#2563a8",
+         "faint": "#6a6a66", "off": "#8c8c86", "good": "#18794e", "bad": "#b3261e", "warn": "#ffd75e", "pin": "#1c1c1a",
+         "signal": "#1f45c4", "param": "#6e3400", "true": "#ffe000", "false": "#b22222", "chart": "#2563a8", "heading": "#dcd8d0"}
+DARK = {"face": "#2b2d30", "ink": "#e8e6e3", "field": "#1e1f22", "line": "#55585c", "pressed": "#3d4045", "select": "#3d7dc8",
+        "faint": "#a5a5a0", "off": "#7c7c78", "good": "#6cc998", "bad": "#ff8a80", "warn": "#6b5600", "pin": "#e8e6e3",
+        "signal": "#8fb1ff", "param": "#e0a070", "true": "#ffe000", "false": "#b22222", "chart": "#6ba6e8", "heading": "#3a3d41"}
+NORMAL_PX = 13          # height of letters at a scale of 1, pixels
+SMALL_SCREEN = 700      # pixels: less high screens have smaller letters
+MAX_SCALE = 3.0
+
+
+@dataclass(frozen=True)
+class Style:
+    """What apply() found: colours by purpose, and how many pixels a pixel of a usual screen is."""
+    colours: dict
+    dark: bool
+    scale: float
+
+    def px(self, pixels):
+        """A length on this screen, from one on a usual screen."""
+        return max(1, round(pixels * self.scale))
+
+
+def wants_dark():
+    theme = os.environ.get("KERF_THEME", "")
+    if theme:
+        return theme == "dark"
+    values = configparser.RawConfigParser()
+    try:
+        values.read(Path.home() / ".axis_preferences")
+        return values.getboolean("DEFAULT", "dark_theme", fallback=False)
+    except (configparser.Error, ValueError, OSError, RuntimeError):
+        return False
+
+
+def screen_scale(root):
+    """1 on a usual screen; more where pixels are small, by its resolution or its size in pixels."""
+    try:
+        return min(max(float(os.environ["KERF_SCALE"]), 1.0), MAX_SCALE)
+    except (KeyError, ValueError):
+        pass
+    by_density = root.winfo_fpixels("1i") / 96
+    by_height = root.winfo_screenheight() / 1080 if root.winfo_screenheight() > 1200 else 1.0
+    return min(max(by_density, by_height, 1.0), MAX_SCALE)
+
+
+def apply(root, dark=None):
+    """Sets fonts, colours and sizes of all widgets of this program; returns the Style."""
+    dark = wants_dark() if dark is None else dark
+    colours = DARK if dark else LIGHT
+    style = Style(colours, dark, screen_scale(root))
+    letters = style.px(NORMAL_PX if root.winfo_screenheight() >= SMALL_SCREEN else NORMAL_PX - 1)
+    for name in ("TkDefaultFont", "TkTextFont", "TkMenuFont", "TkHeadingFont", "TkCaptionFont", "TkTooltipFont"):
+        tkinter.font.nametofont(name, root).configure(family="DejaVu Sans", size=-letters, weight="normal")
+    tkinter.font.nametofont("TkFixedFont", root).configure(family="DejaVu Sans Mono", size=-letters)
+    _options(root, colours, style)
+    _themed(ttk.Style(root), colours, style, letters)
+    root.configure(background=colours["face"])
+    return style
+
+
+def _options(root, colours, style):
+    """Widgets that are not themed: text, lists, menus, canvases."""
+    for pattern, value in (("*Font", "TkDefaultFont"), ("*Text.Font", "TkFixedFont"), ("*background", colours["face"]),
+                           ("*foreground", colours["ink"]), ("*activeBackground", colours["pressed"]),
+                           ("*activeForeground", colours["ink"]), ("*disabledForeground", colours["off"]),
+                           ("*highlightThickness", 0), ("*Entry.background", colours["field"]), ("*Text.background", colours["field"]),
+                           ("*Listbox.background", colours["field"]), ("*Canvas.background", colours["field"]),
+                           ("*selectBackground", colours["select"]), ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
+                           ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.px(2)),
+                           ("*TCombobox*Listbox.font", "TkDefaultFont")):
+        root.option_add(pattern, value, "startupFile")
+
+
+def _themed(theme, colours, style, letters):
+    theme.theme_use("clam")
+    line, face = colours["line"], colours["face"]
+    theme.configure(".", background=face, foreground=colours["ink"], fieldbackground=colours["field"], bordercolor=line, lightcolor=face,
+                    darkcolor=face, troughcolor=colours["pressed"], selectbackground=colours["select"], selectforeground="#ffffff",
+                    insertcolor=colours["ink"], focuscolor=colours["select"], font="TkDefaultFont")
+    theme.map(".", foreground=[("disabled", colours["off"])])
+    theme.configure("TButton", padding=(style.px(10), style.px(4)), anchor="center")
+    theme.configure("Toolbutton", padding=(style.px(5), style.px(2)))
+    theme.map("TButton", background=[("disabled", face), ("pressed", line), ("active", colours["pressed"])])
+    theme.configure("Small.TButton", padding=(style.px(4), style.px(1)), width=-4)
+    for name in ("TCheckbutton", "TRadiobutton"):
+        theme.configure(name, indicatorsize=style.px(14), padding=style.px(2), indicatorbackground=colours["field"],
+                        indicatorforeground=colours["ink"])
+        theme.map(name, background=[("active", face)], indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
+    theme.configure("TEntry", padding=style.px(3))
+    theme.map("TEntry", fieldbackground=[("disabled", face), ("readonly", face)])
+    theme.configure("TCombobox", padding=style.px(3), arrowsize=style.px(14))
+    theme.map("TCombobox", fieldbackground=[("readonly", colours["field"])], foreground=[("readonly", colours["ink"])],
+              selectbackground=[("readonly", colours["field"])], selectforeground=[("readonly", colours["ink"])])
+    for name in ("Vertical.TScrollbar", "Horizontal.TScrollbar"):
+        theme.configure(name, arrowsize=style.px(14), background=face, arrowcolor=colours["ink"])
+        theme.map(name, background=[("disabled", face), ("active", colours["pressed"])])
+    theme.configure("Treeview", rowheight=round(letters * 1.65), background=colours["field"], foreground=colours["ink"],
+                    fieldbackground=colours["field"], indent=style.px(18), borderwidth=1)
+    theme.map("Treeview", background=[("selected", colours["select"])], foreground=[("selected", "#ffffff")])
+    theme.configure("Treeview.Heading", background=colours["heading"], padding=style.px(3))
+    theme.map("Treeview.Heading", background=[("active", colours["pressed"])])
+    theme.configure("Treeview.Item", indicatorsize=style.px(12))
+    theme.configure("TNotebook", tabmargins=(style.px(2), style.px(4), style.px(2), 0))
+    theme.configure("TNotebook.Tab", padding=(style.px(10), style.px(4)), background=colours["pressed"])
+    theme.map("TNotebook.Tab", background=[("selected", face)], padding=[("selected", (style.px(10), style.px(6)))])
+    theme.configure("TLabelframe", bordercolor=line)
+    theme.configure("Value.TLabel", font="TkFixedFont")
+    theme.configure("Faint.TLabel", foreground=colours["faint"])
+    theme.configure("Bad.TLabel", foreground=colours["bad"])
+    theme.configure("Horizontal.TPanedwindow", background=face)
+    theme.configure("Sash", sashthickness=style.px(6), gripcount=style.px(10))
+
+
+def centre(window, width, height, minimum=None):
+    """Places a window in the middle of the screen: pixels, at most what the screen has."""
+    width, height = min(width, window.winfo_screenwidth()), min(height, window.winfo_screenheight() - 40)
+    x, y = (window.winfo_screenwidth() - width) // 2, max(0, (window.winfo_screenheight() - height) // 2 - 20)
+    window.geometry(f"{width}x{height}+{x}+{y}")
+    if minimum:
+        window.minsize(min(minimum[0], width), min(minimum[1], height))
+
+
+def open_display(program, class_name):
+    """The root window. Without a display: says so on standard error, exit status 1."""
+    if not os.environ.get("DISPLAY"):
+        sys.exit(f"{program}: no display (DISPLAY is not set)")
+    try:
+        root = tk.Tk(className=class_name)
+    except tk.TclError as error:
+        sys.exit(f"{program}: {error}")
+
+    def trouble(kind, value, place):
+        """An interrupt (halcmd unload, Control-C) ends the program; other errors are told and it goes on."""
+        if kind is KeyboardInterrupt:
+            root.destroy()
+        else:
+            traceback.print_exception(kind, value, place)
+    root.report_callback_exception = trouble
+    return root

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""tooledit: tool tables in a window."""
+
+import os
+import sys
+import time
+import tkinter as tk
+from pathlib import Path
+from tkinter import messagebox, ttk
+
+from .. import instance, tkstyle
+from . import tclprefs
+from .sheet import Column, Sheet
+from .tooltable import COLUMNS, COMMENT, Row, Table, chosen_columns, is_number
+
+POLL_MS = 2000
+LOCK = "/tmp/linuxcnc.lock"     # while a machine runs
+CHARS = {"T": 5, "P": 5, "D": 9, "I": 9, "J": 9, "Q": 6, COMMENT: 18}
+AXIS_CHARS = 8
+TITLES = {"T": "TOOL", "P": "POC", "D": "DIAM", "I": "FRONT", "J": "BACK", "Q": "ORIEN", COMMENT: "COMMENT"}
+USAGE = f"""Usage: tooledit [COLUMN...] FILE
+Edits a tool table. Columns: {' '.join(COLUMNS)} (default: all)."""
+
+
+class Controller:
+    """The running controller, when its tool table is this file."""
+
+    def __init__(self, path):
+        self.path, self.stat, self.random = Path(path).resolve(), None, False
+
+    def look(self):
+        """"none": another table or no controller; "busy"; "ready": on and idle."""
+        if not os.path.exists(instance.suffixed(LOCK)):
+            self.stat = None
+            return "none"
+        import linuxcnc
+        try:
+            self.stat = self.stat or linuxcnc.stat()
+            self.stat.poll()
+            ini = linuxcnc.ini(self.stat.ini_filename)
+        except (linuxcnc.error, OSError):
+            self.stat = None
+            return "none"
+        table = ini.find("EMCIO", "TOOL_TABLE")
+        self.random = (ini.find("EMCIO", "RANDOM_TOOLCHANGER") or "0") not in ("0", "")
+        if not table or (Path(self.stat.ini_filename).parent / os.path.expanduser(table)).resolve() != self.path:
+            return "none"
+        ready = self.stat.task_state == linuxcnc.STATE_ON and self.stat.interp_state == linuxcnc.INTERP_IDLE
+        return "ready" if ready else "busy"
+
+    def reload(self):
+        import linuxcnc
+        linuxcnc.command().load_tool_table()
+
+
+class Window:
+    def __init__(self, root, table, letters, rc):
+        self.root, self.table, self.rc = root, table, Path(rc)
+        self.letters = ["T", "P"] + letters + [COMMENT]
+        self.controller, self.warned, self.order = Controller(table.path), None, (None, False)
+        self.timer = None
+        style = self.style = tkstyle.apply(root)
+        root.title(f"tooledit: {table.path.name}")
+        columns = [Column(c, TITLES.get(c, c), CHARS.get(c, AXIS_CHARS), c == COMMENT) for c in self.letters]
+        self.status = ttk.Label(root, anchor="w", padding=style.px(4))
+        self.status.pack(side="bottom", fill="x")
+        self._make_buttons()
+        self.sheet = Sheet(root, style, columns, lambda key, text: key == COMMENT or is_number(key, text), self.changed, self.sort)
+        self.sheet.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(4))
+        root.update_idletasks()
+        tkstyle.centre(root, self.sheet.winfo_reqwidth() + style.px(30), style.px(460), (style.px(420), style.px(240)))
+        values, _ = tclprefs.read(rc)
+        if "geometry" in values:
+            try:
+                root.geometry(values["geometry"])
+            except tk.TclError:
+                pass
+        root.protocol("WM_DELETE_WINDOW", self.quit)
+        for key, action in (("<Control-s>", self.save), ("<Control-q>", self.quit)):
+            root.bind(key, lambda event, a=action: a() and None)
+        self.sheet.show(table.rows)
+        self.say(f"{len(table.rows)} tools" + (f"; {len(table.rejected)} bogus lines stay in the file as they are" if table.rejected else ""))
+        self.changed()
+        self.poll()
+
+    def _make_buttons(self):
+        bar = ttk.Frame(self.root, padding=self.style.px(4))
+        bar.pack(side="bottom", fill="x")
+        self.buttons = {}
+        for name, action in (("Delete", self.delete), ("AddTool", self.add), ("ReRead", self.reread), ("SaveFile", self.save),
+                             ("ReLoadTable", self.reload), ("Quit", self.quit)):
+            self.buttons[name] = ttk.Button(bar, text=name, command=action)
+            self.buttons[name].pack(side="left", expand=True, fill="x", padx=self.style.px(2))
+
+    def say(self, text, bad=False):
+        self.status.configure(text=text, style="Bad.TLabel" if bad else "TLabel")
+
+    def changed(self):
+        """A cell or a tick changed."""
+        self.buttons["Delete"].configure(state="normal" if self.sheet.ticked else "disabled")
+        self.root.title(f"tooledit: {self.table.path.name}{' *' if self.table.modified else ''}")
+
+    # -- buttons ------------------------------------------------------------------------
+
+    def delete(self):
+        gone = {id(row) for row in self.sheet.ticked_rows()}
+        self.table.rows[:] = [row for row in self.table.rows if id(row) not in gone]
+        self.sheet.show(self.table.rows)
+        self.say(f"{len(gone)} deleted (in the file with SaveFile)")
+        self.changed()
+
+    def add(self):
+        self.table.rows.append(Row({"T": "NEW", "P": "NEW", COMMENT: time.strftime("Added %Y%m%d")}))
+        self.sheet.show(self.table.rows)
+        self.sheet.focus_cell(len(self.table.rows) - 1)
+        self.changed()
+
+    def sort(self, letter):
+        decreasing = self.order == (letter, False)
+        self.order = (letter, decreasing)
+        self.table.sort(letter, decreasing)
+        self.sheet.show(self.table.rows)
+        self.say(f"Sorted by {TITLES.get(letter, letter)}, {'decreasing' if decreasing else 'increasing'}")
+        self.changed()
+
+    def reread(self):
+        try:
+            self.table.reread()
+        except OSError as error:
+            return self.say(str(error), True)
+        self.warned = None
+        self.sheet.show(self.table.rows)
+        self.say(f"Read again: {len(self.table.rows)} tools")
+        self.changed()
+        return None
+
+    def save(self):
+        """True when the file has the table now."""
+        self.root.focus_set()
+        problems = self.table.problems(self.controller.random and self.controller.look() != "none")
+        if problems:
+            self.show_problems(problems)
+            self.say("Not saved", True)
+            return False
+        if self.warned and not messagebox.askyesno("tooledit", f"{self.warned}.\nReplace it with what is shown here?", parent=self.root):
+            return False
+        try:
+            self.table.save()
+        except (OSError, UnicodeEncodeError) as error:
+            self.say(f"Not saved: {error}", True)
+            return False
+        self.warned = None
+        self.say(f"Saved {self.table.path}; the old file is {self.table.path.name}.bak")
+        self.changed()
+        return True
+
+    def reload(self):
+        if self.save():
+            self.controller.reload()
+            self.say("Saved; the controller reads the table again")
+
+    def quit(self):
+        if self.table.modified:
+            answer = messagebox.askyesnocancel("tooledit", f"Save the changes to {self.table.path.name}?", parent=self.root)
+            if answer is None or (answer and not self.save()):
+                return
+        self.remember()
+        if self.timer:
+            self.root.after_cancel(self.timer)
+        self.root.destroy()
+
+    def show_problems(self, problems):
+        """A list of what is wrong."""
+        window = tk.Toplevel(self.root)
+        window.title("tooledit: please correct")
+        window.transient(self.root)
+        style = self.style
+        ttk.Button(window, text="Close", command=window.destroy).pack(side="bottom", pady=style.px(8))
+        box = tk.Listbox(window, width=min(90, max(len(p) for p in problems) + 2), height=min(20, len(problems) + 1))
+        bar = ttk.Scrollbar(window, command=box.yview)
+        box.configure(yscrollcommand=bar.set)
+        bar.pack(side="right", fill="y")
+        box.pack(fill="both", expand=True, padx=style.px(6), pady=style.px(6))
+        for text in problems:
+            box.insert("end", text)
+        window.bind("<Escape>", lambda event: window.destroy())
+        self.problem_window = window
+
+    # -- outside world ------------------------------------------------------------------
+
+    def poll(self):
+        self.look()
+        self.timer = self.root.after(POLL_MS, self.poll)
+
+    def look(self):
+        """Whether the file and the controller are as before."""
+        button = self.buttons["ReLoadTable"]
+        state = self.controller.look()
+        if state == "none":
+            button.pack_forget()
+        elif not button.winfo_manager():
+            button.pack(side="left", expand=True, fill="x", padx=self.style.px(2), before=self.buttons["Quit"])
+        button.configure(state="normal" if state == "ready" else "disabled")
+        stamp = self.table.look()
+        if stamp != self.table.stamp:
+            self.table.stamp = stamp
+            self.warned = "Warning: File changed by another process" if stamp else "Warning: File deleted by another process"
+            self.say(self.warned, True)
+
+    def remember(self):
+        """The place of the window, for the next time; the first time tells which columns there are."""
+        first = not self.rc.exists()
+        try:
+            kept = [] if first else [line for line in self.rc.read_text().splitlines() if not line.split()[:2] == ["set", "geometry"]]
+            tclprefs.write(self.rc, "\n".join(kept + [f"set geometry {self.root.geometry()}", ""]))
+        except (OSError, UnicodeError) as error:
+            print(f"tooledit: {self.rc}: {error}", file=sys.stderr)
+            return
+        if first:
+            names = {letter: name for name, letter in COLUMNS.items()}
+            used = " ".join(names[letter] for letter in self.letters if letter in names)
+            messagebox.showinfo("tooledit", f"Columns used: {used}\n\nThe columns can be chosen:\n    tooledit x z diam FILE\nor in the INI file:\n"
+                                "    [DISPLAY]TOOL_EDITOR = tooledit x z diam", parent=self.root)
+
+
+def main(arguments):
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(USAGE, file=sys.stderr)
+        return 0 if arguments else 1
+    letters, complaints = chosen_columns(arguments[:-1])
+    for text in complaints:
+        print(f"tooledit: {text}", file=sys.stderr)
+    try:
+        table = Table(arguments[-1])
+    except OSError as error:
+        print(f"tooledit: {arguments[-1]}: {error.strerror}", file=sys.stderr)
+        return 1
+    root = tkstyle.open_display("tooledit", "Tooledit")
+    Window(root, table, letters, Path.home() / ".tooleditrc")
+    root.mainloop()
+    return 0
