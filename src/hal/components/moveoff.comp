@@ -49,6 +49,7 @@ include <rtapi_math.h>;
 #define MAX_WAYPOINTS 1000
 #define TEST_WAYPOINTS 50
 #define LEAST_EPSILON 0.0001
+#define TIE 1e-6            /* velocities are the same within this share of a cycle's change */
 
 enum { IDLE, MOVE_AWAY, MOVE_BACK };
 
@@ -209,7 +210,12 @@ static void step(struct mover *m, double in, double low, double high, double v, 
         double est_out = m->at + 0.5 * (in_velocity + m->velocity + ramp * dt) * match;
         double est_in = m->old_in + in_velocity * match;
         double error = est_out - est_in, dp = -2 * ramp * dt * match;
-        if(fabs(error + dp * 2) < fabs(error)) ramp = -ramp;
+        if(fabs(in_velocity - m->velocity) <= TIE * a * dt) {
+            /* Nothing to match: the sign of a rounding error must not decide, or the offset creeps for ever. */
+            ramp = m->at > in ? -a : a;
+        } else if(fabs(error + dp * 2) < fabs(error)) {
+            ramp = -ramp;
+        }
         m->at = ramp < 0 ? least : most;
         m->velocity = ramp < 0 ? least_v : most_v;
     }
