@@ -597,6 +597,7 @@ void sweep_envelope(struct traj *tj)
         tj->sweep_anew = 0;
         tj->sweep_scale = scale;
         tj->sweep_vlimit = tj->drive.vlimit;
+        tj->swept_before = tj->swept_end;
         tj->swept_end = tj->cell_end;
         tj->sweep = tj->cell_end - 1;
     }
@@ -608,9 +609,9 @@ void sweep_envelope(struct traj *tj)
             k = fmin(ramp_b(c->down, ahead, c->len), c->cap);
             k = fmin(k, feed_b(tj, c, tj->sweep_scale, tj->sweep_vlimit));
         }
-        int same = fabs(k - c->k) <= 1e-12 * k;
+        int same = (int32_t)(tj->swept_before - tj->sweep) > 0 && fabs(k - c->k) <= 1e-12 * k;
         c->k = k;
-        if ((same && !tj->sweep_full && tj->sweep + 1 != tj->swept_end) || tj->sweep == tj->cell ||
+        if ((same && !tj->sweep_full) || tj->sweep == tj->cell ||
             tj->sweep == tj->cell_first) {
             tj->sweeping = 0;
             return;

@@ -182,6 +182,7 @@ struct traj {
     int sweep_full;      /* caps changed: do not stop early */
     int sweep_anew;      /* the next sweep covers all cells */
     uint32_t swept_end;  /* cell_end when the last sweep began */
+    uint32_t swept_before; /* and when the one before it began: cells from there on have no envelope yet */
     double sweep_scale, sweep_vlimit;
     uint32_t back_sweep;   /* next cell of the envelope for running backward; cell_end: done */
     double back_scale;

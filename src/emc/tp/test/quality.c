@@ -291,6 +291,31 @@ static void lone_moves_with_jerk_limits_take_little_more_than_the_optimum(void)
     }
 }
 
+static void moves_that_end_at_rest_take_as_long_together_as_alone(void)
+{
+    static const double corner[][2] = { { 3, 7 }, { 6, 3 }, { 9, 10 }, { 2, 6 }, { 4, 1 }, { 20, 3 }, { 20.5, 9 }, { 1, 1 } };
+    double jerk[] = { 0, 20000, 100000, 200000 };
+    int moves = sizeof corner / sizeof *corner;
+
+    for (int k = 0; k < 4; k++) {
+        uint64_t alone = 0, together;
+        for (int i = 0; i < moves; i++) {
+            mill_with(80, 800, jerk[k]);
+            memset(b.at, 0, sizeof b.at);
+            go(corner[i][0] - (i ? corner[i - 1][0] : 0), corner[i][1] - (i ? corner[i - 1][1] : 0), 0, 50, EMCMOT_TERM_COND_EXACT, 0);
+            send_all();
+            alone += finish(100000);
+            bench_free(&b);
+        }
+        mill_with(80, 800, jerk[k]);
+        for (int i = 0; i < moves; i++) go(corner[i][0], corner[i][1], 0, 50, EMCMOT_TERM_COND_EXACT, 0);
+        together = bench_run(&b, 1, 100000);
+        limits_kept();
+        CHECK(together <= alone + 5u * moves, "jerk %g: %llu cycles together, %llu alone", jerk[k], (unsigned long long)together, (unsigned long long)alone);
+        bench_free(&b);
+    }
+}
+
 /* Unreachable beyond x = 50. */
 static int short_arm(const double p[AXES], double *q)
 {
@@ -332,6 +357,7 @@ static const struct test_case cases[] = {
     CASE(fp_046_tolerance_holds_at_every_override),
     CASE(fp_047_a_lone_move_uses_all_of_the_limits),
     CASE(lone_moves_with_jerk_limits_take_little_more_than_the_optimum),
+    CASE(moves_that_end_at_rest_take_as_long_together_as_alone),
     CASE(a_path_out_of_reach_ends_at_rest_with_a_message),
 };
 CASES_MAIN
