@@ -10,7 +10,7 @@ import tkinter as tk
 import traceback
 
 import linuxcnc
-from kerf import clock
+from kerf import clock, gl
 from kerf.tree import Tree
 
 from . import dialogs, program, remote
@@ -36,6 +36,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
 
     def __init__(self, root, ini_path):
         self.root = root
+        self.probe = gl.Probe()
         self.ini = linuxcnc.ini(ini_path)
         self.settings = read(self.ini)
         self.settings.ini_path = ini_path

@@ -2,7 +2,7 @@
 """Where the preview is looked at from; no widgets here.
 
 Model space is inches, x y z to the right, back and up. A matrix is 16 numbers, row-major:
-clip = matrix * (x, y, z, 1); the window shows -w <= x, y <= w, y up.
+clip = matrix * (x, y, z, 1); the window shows -w <= x, y <= w, y up; less z is nearer.
 """
 
 import math
@@ -12,6 +12,7 @@ ZOOM_FACTOR = 1.25
 DEGREES_PER_PX = 0.5
 SNAP_DEG = 3.0
 MIN_SIZE, MAX_SIZE = 0.1, 6000.0    # inches across the window
+DEPTH = 4.0              # window sizes before and behind the centre that have a depth of their own
 EYE = 2.5                # distance of the eye in perspective, in window sizes
 
 # (right, up, outward) of the fixed views
@@ -80,8 +81,10 @@ class Camera:
         for vector, scale in ((right, 1 / sx), (up, 1 / sy)):
             rows.append([c * scale for c in vector] + [-scale * sum(c * p for c, p in zip(vector, self.centre))])
         depth = 0.0 if self.view in FIXED else 1 / (EYE * self.size)
-        last = [-c * depth for c in out] + [1 + depth * sum(c * p for c, p in zip(out, self.centre))]
-        return rows[0] + rows[1] + [0.0, 0.0, 0.0, 0.0] + last
+        towards = sum(c * p for c, p in zip(out, self.centre))
+        near = [-c / (DEPTH * self.size) for c in out] + [towards / (DEPTH * self.size)]
+        last = [-c * depth for c in out] + [1 + depth * towards]
+        return rows[0] + rows[1] + near + last
 
     def pixel(self, point, width, height):
         """(x, y) of a point in the window, or None behind the eye."""

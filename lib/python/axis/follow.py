@@ -36,6 +36,7 @@ class FollowPart:
         try:
             self.stat.poll()
             self.follow_status()
+            self.preview.look()
         except linuxcnc.error as e:
             self.jogger.stop_all()
             print(f"axis: the controller does not answer: {e}", file=sys.stderr)
@@ -144,6 +145,7 @@ class FollowPart:
         still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle)
         if still != self.widget_signs.get("offsets"):
             self.widget_signs["offsets"] = still
+            linuxcnc.gui_rot_offsets(*[a + b for a, b in zip(s.g5x_offset[:3], s.g92_offset[:3])])
             self.preview.dirty = True
         self.widget_signs["readout"] = key
         self.preview.redraw_soon()

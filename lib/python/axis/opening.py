@@ -10,6 +10,9 @@ from kerf.tree import Tree
 from . import dialogs, program
 
 
+LONGEST_PREVIEW_S = 60.0     # a program without an end is not read for ever, also without PREVIEW_TIMEOUT
+
+
 class OpeningPart:
     """Part of App: the program that is loaded."""
 
@@ -61,17 +64,22 @@ class OpeningPart:
         self.show_text(lines)
         self.stat.poll()
         total = max(1, len(lines))
-        timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"))
-        end = time.monotonic() + timeout if timeout else None
+        timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
+        end = time.monotonic() + (timeout if timeout > 0 else LONGEST_PREVIEW_S)
 
         def progress(line):
             self.progress(50 + 50 * line / total)
-            if end and time.monotonic() > end:
+            if time.monotonic() > end:
                 self.notifications.add("info", self.translate("G-code preview loading timed out"))
                 return True
             return self.cancel_loading
         path = self.loader.preview(self.shown_file, self.stat, bool(self.vars.block_delete.get()), progress)
-        self.preview.set_program(path)
+        boxed = self.loader.too_large(self.shown_file)
+        self.preview.set_program(path, boxed)
+        if boxed:
+            self.notifications.add("info", self.translate("The file is larger than GRAPHICAL_MAX_FILE_SIZE: only its bounds are drawn"))
+        elif path.thinned > 1:
+            self.notifications.add("info", self.translate("The program is very long: one piece of %d is drawn") % path.thinned)
         if path.notify:
             self.notifications.add("info", path.notify_message)
         if path.error and not path.aborted:
@@ -136,6 +144,7 @@ class OpeningPart:
             self.text.see(f"{line}.0")
         if self.vars.highlight_line.get() != line:
             self.vars.highlight_line.set(line)
+            self.preview.centre_on_line(line)
             self.preview.invalidate()
 
     def begin_progress(self):

@@ -9,6 +9,7 @@ import tempfile
 
 from .settings import LETTERS, MM_PER_INCH
 
+MAX_VERTICES = 3000000       # of the preview; longer paths are drawn coarser
 PROGRESS = re.compile(r"FILTER_PROGRESS=(\d+)$")
 
 
@@ -111,7 +112,12 @@ class Loader:
         division = int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64))
         return gcode.load(path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,
                           linear_units=self.s.units_per_mm, ini=self.s.ini_path, arc_division=division,
-                          block_delete=block_delete, progress=progress)
+                          block_delete=block_delete, progress=progress, max_vertices=MAX_VERTICES)
+
+    def too_large(self, path):
+        """True for a file that [DISPLAY]GRAPHICAL_MAX_FILE_SIZE (MB) lets be shown as a box only."""
+        most = self.s.real(("DISPLAY", "GRAPHICAL_MAX_FILE_SIZE"), default=0.0)
+        return most > 0 and os.path.getsize(path) > most * 1e6
 
 
 def text_lines(path):

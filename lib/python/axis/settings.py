@@ -40,6 +40,9 @@ class Settings:
     max_angular: float = 1.0
     default_angular: float = 1.0
     max_velocity: float = 1.0
+    geometry: str = "XYZABCUVW"
+    foam_z: float = 0.0          # inches
+    foam_w: float = 1.5
     increments: list = field(default_factory=list)
     grids: list = field(default_factory=list)
     warnings: list = field(default_factory=list)
@@ -191,6 +194,8 @@ def read(ini):
     s.max_feed_override = s.real(("DISPLAY", "MAX_FEED_OVERRIDE"), default=1.0)
     s.max_spindle_override = s.real(("DISPLAY", "MAX_SPINDLE_OVERRIDE"), default=s.max_feed_override)
     s.default_spindle_speed = int(s.real(("DISPLAY", "DEFAULT_SPINDLE_SPEED"), default=1))
+    s.geometry = s.find("DISPLAY", "GEOMETRY", "XYZABCUVW").upper()
+    s.foam_z, s.foam_w = s.real(("DISPLAY", "FOAM_Z"), default=0.0), s.real(("DISPLAY", "FOAM_W"), default=1.5)
     read_speeds(s)
     s.increments = split_list(s.find("DISPLAY", "INCREMENTS", "0.1000 0.0100 0.0010 0.0001"))
     s.grids = s.find("DISPLAY", "GRIDS", "10mm 20mm 50mm 100mm 1in 2in 5in 10in").split()

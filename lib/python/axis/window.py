@@ -9,12 +9,13 @@ import linuxcnc
 from kerf.tree import Tree
 
 from . import commands as command_table
+from .compose import PLOT
 from .dro import Readout
 from .icons import Icons
 from .jog import Jogger, position, speed
 from .keys import Keys
 from .notify import Notifications
-from .preview import PLOT, Preview
+from .preview import Preview
 from .settings import LETTERS, MM_PER_INCH, parse_increment
 from .variables import Options
 
@@ -81,11 +82,15 @@ class WindowPart:
         self.notifications = Notifications(root, self.errors_shown)
         self.jogger = Jogger(self)
         self.restore()
-        self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *PLOT, s.find("DISPLAY", "GEOMETRY", "XYZABCUVW"), s.foam)
+        self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *PLOT, s.geometry, s.foam)
         self.options = Options(self.vars, cone_size=self.cone_size(), cone_scaling=not s.flag("DISPLAY", "DISABLE_CONE_SCALING"),
                                min_tool_diameter=s.real(("DISPLAY", "GCODE_VIEW_TOOL_MIN_DIA"), default=0.0))
         self.preview = Preview(self.widgets.preview_frame, s, self.options, self.logger)
         self.preview.pack(fill="both", expand=True)
+        linuxcnc.gui_respect_offsets(s.coordinates, int("!" in s.geometry))
+        reason = self.preview.show_with(self.probe.result())
+        if reason:
+            print(f"axis: the preview is drawn without OpenGL: {reason}")
         self.preview.on_select = self.set_highlight_line
         self.readout = Readout(s)
         self.TclCommands = command_table.make(self)

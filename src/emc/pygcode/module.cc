@@ -68,7 +68,7 @@ std::vector<CANON_TOOL_TABLE> tool_list(const py::object &tools)
 std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &parameter_file, const py::object &init,
                                   const py::object &tools, int axis_mask, double linear_units, double angular_units,
                                   const std::string &ini, int arc_division, bool block_delete, const py::object &start,
-                                  const py::object &progress)
+                                  const py::object &progress, size_t max_vertices)
 {
     ProgramOptions o;
     o.parameter_file = parameter_file;
@@ -80,6 +80,7 @@ std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &pa
     o.angular_units = angular_units;
     o.arc_division = arc_division;
     o.block_delete = block_delete;
+    o.max_vertices = max_vertices;
     if (!start.is_none()) {
         size_t i = 0;
         for (py::handle h : start)
@@ -269,11 +270,16 @@ void bind_program(py::module_ &m)
         for (const ProgramMark &k : p.marks) l.append(py::make_tuple(k.line, k.x, k.y, k.z, k.plane, k.user_m));
         return l;
     }, "(line, x, y, z, plane, is M1xx) of dwells and user M codes.");
+    c.def("release_path", &ProgramPath::release_path,
+          "Frees positions, lines and kinds, of which no view may be left; lengths, extents, times and marks stay.");
     c.def_readonly("messages", &ProgramPath::messages);
     c.def_readonly("result", &ProgramPath::result);
     c.def_readonly("last_line", &ProgramPath::last_line);
     c.def_readonly("error", &ProgramPath::error);
     c.def_readonly("aborted", &ProgramPath::aborted);
+    c.def_readonly("thinned", &ProgramPath::thinned, "1, or n when about every n-th piece was kept.");
+    c.def_readonly("foam_z", &ProgramPath::foam_z, "Height of the XY plane of a foam cutter that the program gave, inches, or None.");
+    c.def_readonly("foam_w", &ProgramPath::foam_w, "Height of its UV plane.");
     c.def_readonly("notify", &ProgramPath::notify);
     c.def_readonly("notify_message", &ProgramPath::notify_message);
     c.def_property_readonly("fault", [](const ProgramPath &p) -> py::object {
@@ -315,7 +321,9 @@ PYBIND11_MODULE(gcode, m)
           py::arg("tools") = py::none(), py::arg("axis_mask") = 0x1ff, py::arg("linear_units") = 1.0,
           py::arg("angular_units") = 1.0, py::arg("ini") = "", py::arg("arc_division") = 64,
           py::arg("block_delete") = false, py::arg("start") = py::none(), py::arg("progress") = py::none(),
+          py::arg("max_vertices") = 0,
           "Read a program into a Program. linear_units: machine units per mm; tools: 14-tuples as of get_tool();\n"
           "progress(line) is called about ten times a second and stops the reading when it returns true.\n"
+          "max_vertices: a longer path is kept coarser (thinned); lengths, times and extents stay exact.\n"
           "The parameter file is read and, like by every interpreter start, written: give a copy.");
 }

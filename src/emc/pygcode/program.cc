@@ -19,6 +19,13 @@ void Box::add(double x, double y, double z)
     }
 }
 
+void ProgramPath::release_path()
+{
+    std::vector<std::array<float, 9>>().swap(points);
+    std::vector<int32_t>().swap(lines);
+    std::vector<uint8_t>().swap(kinds);
+}
+
 double ProgramPath::cutting_time(double max_feed) const
 {
     double minutes = 0;
@@ -137,6 +144,8 @@ class PathCanon final : public PreviewCanon
         if (command == "stop") stop = true;
         else if (command == "hide") ++suppress;
         else if (command == "show") --suppress;
+        else if (command == "XY_Z_POS") foam_plane(path.foam_z, rest, 5 / 25.4);
+        else if (command == "UV_Z_POS") foam_plane(path.foam_w, rest, 30);
         else if (command == "notify") {
             ++path.notify;
             const char *comma = strchr(rest, ',');
@@ -154,8 +163,46 @@ class PathCanon final : public PreviewCanon
     bool stop = false; // (AXIS,stop)
 
   private:
+    /// The height behind the comma, inches; without a number nothing changes.
+    void foam_plane(std::optional<double> &plane, const char *rest, double unreadable)
+    {
+        const char *comma = strchr(rest, ',');
+        if (!comma) return;
+        char *end = nullptr;
+        const double value = strtod(comma + 1, &end);
+        const size_t blank = strspn(end, " \t");
+        plane = end != comma + 1 && (end[blank] == 0 || end[blank] == ',') ? to_inch(value) : unreadable;
+    }
+    /// Keeps every second piece of each run from now on, and of what is there.
+    void thin()
+    {
+        size_t to = 0;
+        bool odd = false;
+        for (size_t i = 0, next = 0; i < path.points.size(); ++i) {
+            while (next < path.tool_changes.size() && path.tool_changes[next].first <= i) path.tool_changes[next++].first = uint32_t(to);
+            const bool ends = i + 1 == path.points.size() || path.kinds[i + 1] != path.kinds[i];
+            odd = !odd;
+            if (path.kinds[i] != uint8_t(PathKind::JUMP) && !ends && odd) continue;
+            path.points[to] = path.points[i];
+            path.lines[to] = path.lines[i];
+            path.kinds[to++] = path.kinds[i];
+        }
+        path.points.resize(to);
+        path.lines.resize(to);
+        path.kinds.resize(to);
+        path.thinned *= 2;
+    }
     void vertex(int line, const Point9 &p, PathKind kind)
     {
+        if (options.max_vertices && path.points.size() >= options.max_vertices) thin();
+        // A piece that was left out is replaced by the next of its kind.
+        if (path.thinned > 1 && kind != PathKind::JUMP && left_out && !path.points.empty() && path.kinds.back() == uint8_t(kind)) {
+            left_out = ++skipped % path.thinned != 0;
+            for (size_t i = 0; i < 9; ++i) path.points.back()[i] = float(p[i]);
+            path.lines.back() = line;
+            return;
+        }
+        left_out = path.thinned > 1 && kind != PathKind::JUMP;
         std::array<float, 9> v;
         for (size_t i = 0; i < 9; ++i) v[i] = float(p[i]);
         path.points.push_back(v);
@@ -214,7 +261,8 @@ class PathCanon final : public PreviewCanon
     Point9 tool{};
     float feed = 60, feed_key = 0;
     double *feed_length = nullptr;
-    bool first_move = true, need_jump = true;
+    bool first_move = true, need_jump = true, left_out = false;
+    int skipped = 0;
     int suppress = 0;
     std::vector<Point9> segments;
 };

@@ -12,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct ProgramOptions {
     int arc_division = 64;
     bool block_delete = false;
     Point9 start{}; // machine position, inches
+    size_t max_vertices = 0; // beyond it, only every n-th piece is kept (0: no bound)
 };
 
 /// The path of a program. Vertex n ends a piece that began at vertex n-1; a JUMP vertex
@@ -63,9 +65,12 @@ struct ProgramPath {
     std::string error;
     Fault fault;
     bool aborted = false;
+    int thinned = 1; // every n-th piece of a run is kept
+    std::optional<double> foam_z, foam_w; // (AXIS,XY_Z_POS,...), (AXIS,UV_Z_POS,...): inches
     int notify = 0;
     std::string notify_message;
 
+    void release_path(); ///< frees points, lines and kinds
     double cutting_time(double max_feed) const; ///< s; max_feed: in/min
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Python module kerf_raster: pictures of tool paths in memory.
+#include "module.hh"
 #include "raster.hh"
 
-#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <stdexcept>
@@ -89,4 +89,5 @@ PYBIND11_MODULE(kerf_raster, m)
     m.def("pick", &pick, py::arg("vertices"), py::arg("kinds"), py::arg("palette"), py::arg("matrix"), py::arg("width"),
           py::arg("height"), py::arg("x"), py::arg("y"), py::arg("radius") = 5.0,
           "Vertex that ends the piece nearest to a pixel, or -1.");
+    bind_drawing(m);
 }

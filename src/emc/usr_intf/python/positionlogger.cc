@@ -58,7 +58,7 @@ std::array<double, 3> vertex(const std::array<double, 9> &p, const char *geometr
         case 'V': q[1] += p[7] * sign; break;
         case 'W': q[2] += p[8] * sign; break;
         case 'A': if (respect_offsets && !has('A')) break; q[1] -= oy; q[2] -= oz; turn(q[1], q[2], p[3] * sign); q[1] += oy; q[2] += oz; break;
-        case 'B': if (respect_offsets && !has('B')) break; q[2] -= oz; q[0] -= ox; turn(q[2], q[0], p[4] * sign); q[2] += oz; q[0] += ox; break;
+        case 'B': if (respect_offsets && !has('B')) break; q[2] -= oz; q[0] -= ox; turn(q[0], q[2], p[4] * sign); q[2] += oz; q[0] += ox; break;
         case 'C': if (respect_offsets && !has('C')) break; q[0] -= ox; q[1] -= oy; turn(q[0], q[1], p[5] * sign); q[0] += ox; q[1] += oy; break;
         default: break;
         }

@@ -66,11 +66,99 @@ def grid(step, centre, size, plane, rotation_deg=0.0):
     return runs(*lines)
 
 
-def cone(tip, radius, height):
-    """A wire cone that stands on its tip."""
-    top = circle((tip[0], tip[1], tip[2] + height), radius, (1, 0, 0), (0, 1, 0))
+def across(way):
+    """Two unit vectors at right angles to X or Z."""
+    return ((0, 1, 0), (0, 0, 1)) if way[0] else ((1, 0, 0), (0, 1, 0))
+
+
+def cone(tip, radius, height, up=1, way=(0, 0, 1)):
+    """A wire cone that stands on its tip, along `way`; up -1: from the other side."""
+    top = circle(tuple(t + up * height * d for t, d in zip(tip, way)), radius, *across(way))
     sides = [(tip, top[k]) for k in range(0, CIRCLE, 3)]
     return runs(top, *sides)
+
+
+def cone_faces(tip, radius, height, way=(0, 0, 1)):
+    """Triangles of the cone's side."""
+    top = circle(tuple(t + height * d for t, d in zip(tip, way)), radius, *across(way))
+    return np.array([p for a, b in zip(top, top[1:]) for p in (tip, a, b)], np.float32)
+
+
+def cylinder_faces(bottom, radius, height):
+    """Triangles of a cylinder's side and bottom."""
+    low = circle(bottom, radius, (1, 0, 0), (0, 1, 0))
+    high = circle((bottom[0], bottom[1], bottom[2] + height), radius, (1, 0, 0), (0, 1, 0))
+    return np.array([p for a, b, c, d in zip(low, low[1:], high, high[1:]) for p in (a, b, c, c, b, d, bottom, a, b)], np.float32)
+
+
+def cross(at, plane, half=0.0078125):
+    """The mark of a dwell or a user's M code in a plane: 0 XY, 1 XZ, 2 YZ."""
+    i, j = ((0, 1), (0, 2), (1, 2))[plane]
+    lines = []
+    for sign in (1, -1):
+        ends = []
+        for side in (-1, 1):
+            p = list(at)
+            p[i] += side * half
+            p[j] += side * sign * half
+            ends.append(tuple(p))
+        lines.append(ends)
+    return runs(*lines)
+
+
+def joined(parts):
+    """Several (vertices, kinds) as one."""
+    return np.concatenate([p for p, _ in parts]), np.concatenate([k for _, k in parts])
+
+
+def turned(points, degrees, about):
+    """Points rotated in XY about (x, y)."""
+    points = np.array(points, np.float32).reshape(-1, 3)
+    if degrees:
+        t = math.radians(degrees)
+        x, y = points[:, 0] - about[0], points[:, 1] - about[1]
+        points[:, 0], points[:, 1] = x * math.cos(t) - y * math.sin(t) + about[0], x * math.sin(t) + y * math.cos(t) + about[1]
+    return points
+
+
+PLANES = {"A": (1, 2), "B": (0, 2), "C": (0, 1)}
+
+
+def tilted(points, at, letter, degrees):
+    """Points rotated about a rotary axis through `at`."""
+    points = np.array(points, np.float32).reshape(-1, 3)
+    if len(points) and degrees:
+        i, j = PLANES[letter]
+        t = math.radians(degrees)
+        a, b = points[:, i] - at[i], points[:, j] - at[j]
+        points[:, i], points[:, j] = a * math.cos(t) - b * math.sin(t) + at[i], a * math.sin(t) + b * math.cos(t) + at[j]
+    return points
+
+
+def placed(nine, geometry, coordinates, offset):
+    """((x, y, z), [(letter, degrees)]): where nine axes are drawn, and how the tool is tilted there."""
+    respect = "!" in geometry
+    turns = respect and any(c in "ABC" and c in coordinates for c in geometry)
+    point, sign, tilt = [0.0, 0.0, 0.0], 1.0, []
+    for c in geometry:
+        n = "XYZABCUVW".find(c)
+        if c == "-":
+            sign = -1.0
+            continue
+        if n < 0:
+            continue
+        if n < 3 or n > 5:
+            point[n % 3] += sign * (nine[n] - (offset[n] if turns else 0.0))
+        elif turns and c in coordinates:
+            degrees = sign * (nine[n] - offset[n])
+            i, j = PLANES[c]
+            t = math.radians(degrees)
+            point[i], point[j] = point[i] * math.cos(t) - point[j] * math.sin(t), point[i] * math.sin(t) + point[j] * math.cos(t)
+            tilt.append((c, degrees))
+        sign = 1.0
+    if turns:
+        point = [p + o for p, o in zip(point, offset)]
+    return tuple(point), tilt
 
 
 def cylinder(bottom, radius, height):
@@ -103,8 +191,16 @@ def lathe_tool(position, diameter, front, back, orientation):
     return runs([start, *arc, stop])
 
 
-def dimension(low, high, axis, plane_axis, metric):
-    """(vertices, kinds, [(place, text)]) of the extent along one axis, drawn beside the box in plane_axis."""
+def lathe_cross(at, radius):
+    """Cross-hairs at a lathe tool's controlled point."""
+    x, y, z = at
+    return runs([(x - radius / 2, y, z), (x + radius / 2, y, z)], [(x, y, z - radius / 2), (x, y, z + radius / 2)])
+
+
+def dimension(low, high, axis, plane_axis, metric, zero=0.0):
+    """(vertices, kinds, [(place, text)]) of the extent along one axis, drawn beside the box in plane_axis.
+
+    Labels: least, greatest, difference; positions are told from `zero`."""
     gap = 0.06 * max(h - l for l, h in zip(low, high)) + 0.05
     a, b = list(low), list(low)
     b[axis] = high[axis]
@@ -116,8 +212,11 @@ def dimension(low, high, axis, plane_axis, metric):
         q[plane_axis] -= gap / 3
         r[plane_axis] += gap / 3
         ticks.append((tuple(q), tuple(r)))
-    form, scale = ("%.1f", 25.4) if metric else ("%.2f", 1.0)
+    scale = 25.4 if metric else 1.0
+
+    def form(value):
+        text = ("%.1f" if metric else "%.2f") % (value * scale)
+        return text[1:] if text.strip("-0.") == "" and text[0] == "-" else text
     middle = [(p + q) / 2 for p, q in zip(a, b)]
-    labels = [(tuple(a), form % (low[axis] * scale)), (tuple(b), form % (high[axis] * scale)),
-              (tuple(middle), form % ((high[axis] - low[axis]) * scale))]
+    labels = [(tuple(a), form(low[axis] - zero)), (tuple(b), form(high[axis] - zero)), (tuple(middle), form(high[axis] - low[axis]))]
     return (*runs((tuple(a), tuple(b)), *ticks), labels)

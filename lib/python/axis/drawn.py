@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The preview without OpenGL: a canvas with a picture that kerf_raster draws in memory.
+
+The still layer is drawn when it or the view changes; what moves is drawn over a copy of it.
+"""
+
+import tkinter as tk
+from tkinter import font as tkfont
+
+import kerf_raster
+import numpy as np
+from kerf.glpath import PLOT_RECORD
+
+NOTHING = (0, 0, 0, 0)
+
+
+def rgba(colour):
+    """Four numbers 0..255 of a colour given as 0..1."""
+    return tuple(max(0, min(255, round(255 * c))) for c in colour)
+
+
+def web(colour):
+    return "#%02x%02x%02x" % rgba(colour)[:3]
+
+
+class DrawnPicture(tk.Canvas):
+    """Shows scenes (kerf.glpath.Scene)."""
+    kind = "drawn"
+
+    def __init__(self, parent):
+        super().__init__(parent, highlightthickness=0, borderwidth=0, background="#000000")
+        self.layer = self.frame = self.image = None
+        self.item = self.create_image(0, 0, anchor="nw")
+        self.fonts = {}
+        self.exact = True
+
+    def font(self, size):
+        if size not in self.fonts:
+            self.fonts[size] = tkfont.Font(self, family="DejaVu Sans Mono", size=-size)
+        return self.fonts[size]
+
+    def lines(self, raster, item, matrix):
+        points = np.ascontiguousarray(item.vertices, np.float32)
+        if len(points) > 1 and not item.triangles:
+            raster.draw(points, np.ascontiguousarray(item.kinds, np.uint8), [NOTHING, rgba(item.colour)], matrix, 0, len(points),
+                        max(1, round(item.width)))
+
+    def draw_still(self, scene, matrix, width, height, label_size):
+        if self.layer is None or (self.layer.width, self.layer.height) != (width, height):
+            self.layer, self.frame = kerf_raster.Raster(width, height), kerf_raster.Raster(width, height)
+        r = self.layer
+        r.clear(rgba(scene.back))
+        for item in scene.before:
+            self.lines(r, item, matrix)
+        for drawing, palette in zip(scene.drawings, scene.palettes):
+            r.draw(drawing.vertices, drawing.kinds, [rgba(c) for c in palette[:3]] + [NOTHING], matrix)
+        for number, first, last in scene.selected_spans:
+            drawing = scene.drawings[number]
+            r.draw(drawing.vertices, drawing.kinds, [rgba(scene.selected)] * 3 + [NOTHING], matrix, first, last, 3)
+        for item in scene.after:
+            self.lines(r, item, matrix)
+        self.delete("label")
+        for x, y, text, colour, box in scene.labels:
+            made = self.create_text(x, y, text=text, fill=web(colour), font=self.font(label_size), anchor="s", tags="label")
+            if box:
+                self.create_rectangle(*self.bbox(made), outline=web(colour), tags="label")
+
+    def step(self):
+        return False
+
+    def draw_frame(self, scene, matrix):
+        self.frame.assign(self.layer)
+        r = self.frame
+        if scene.plot is not None:
+            self.draw_plot(r, scene)
+        for item in scene.live:
+            self.lines(r, item, matrix)
+        self.image = tk.PhotoImage(master=self, data=r.ppm(), format="PPM")
+        self.itemconfigure(self.item, image=self.image)
+        self.delete("text")
+        for x0, y0, x1, y1, colour in scene.panels:
+            if colour[3] > 0:
+                self.create_rectangle(x0, y0, x1, y1, fill=web(colour), outline="", stipple="gray75" if colour[3] < 1 else "", tags="text")
+        for x, y, text, colour, size in scene.texts:
+            self.create_text(x, y, text=text, fill=web(colour), font=self.font(size), anchor="nw", tags="text")
+        return True
+
+    def draw_plot(self, raster, scene):
+        data, count, second = scene.plot
+        if count < 2:
+            return
+        records = np.frombuffer(data, PLOT_RECORD, count)
+        packed = np.ascontiguousarray(records["c"]).view("u4").reshape(-1)
+        values, kinds = np.unique(packed, return_inverse=True)
+        palette = [tuple(int(b) for b in np.array([v], "u4").view("u1")) for v in values[:255]]
+        for name in ("p", "q") if second else ("p",):
+            raster.draw(np.ascontiguousarray(records[name]), kinds.astype(np.uint8), palette, scene.plot_matrix, 0, count, 2)
+        if second:
+            ends = np.empty((2 * count, 3), np.float32)
+            ends[0::2], ends[1::2] = records["p"], records["q"]
+            piece = np.tile(np.array([0, 1], np.uint8), count)
+            raster.draw(ends, piece, [NOTHING, palette[0]], scene.plot_matrix, 0, 2 * count, 1)
+
+    def exposed(self):
+        return False
+
+    def close(self):
+        pass

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The preview with OpenGL: a widget of kerf.gl, drawn by kerf.glpath."""
+
+from kerf import gl
+from kerf.glpath import Renderer
+
+
+class GLPicture(gl.Frame):
+    """Shows scenes (kerf.glpath.Scene). Making it raises RuntimeError or ImportError where OpenGL does not work."""
+    kind = "OpenGL"
+
+    def __init__(self, parent):
+        super().__init__(parent, borderwidth=0, highlightthickness=0, background="", width=300, height=200)
+        try:
+            library = gl.library()
+            self.open()
+            self.renderer = Renderer(library)
+        except Exception:
+            self.destroy()
+            raise
+
+    @property
+    def exact(self):
+        return self.renderer.exact
+
+    def draw_still(self, scene, matrix, width, height, label_size):
+        self.window.make_current()
+        if self.renderer.resize(width, height):
+            self.window.resize(width, height)
+        self.renderer.draw_still(scene, matrix, label_size)
+
+    def step(self):
+        """One slice of the exact drawing; True when it is complete."""
+        self.window.make_current()
+        return self.renderer.step()
+
+    def draw_frame(self, scene, matrix):
+        self.window.make_current()
+        if not self.renderer.draw_frame(scene, matrix):
+            return False
+        self.renderer.present()
+        self.window.swap()
+        return True
+
+    def exposed(self):
+        return self.window is not None and self.window.exposed()
