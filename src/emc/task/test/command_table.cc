@@ -16,7 +16,37 @@
 
 namespace {
 
-const char *const SITUATIONS[] = {"off", "manual", "auto idle", "auto reading", "auto paused", "auto waiting", "mdi"};
+// How the machine stands when a command comes, and the column of the documented table that counts then.
+struct Standing {
+    const char *name;
+    int column; // 0 off, 1 manual, 2 to 5 auto with the interpreter idle, reading, paused, waiting, 6 MDI
+    int state, mode;
+    bool teleop;
+    const char *program; // runs
+    const char *mdi;     // runs
+    bool pause;
+};
+
+constexpr int ESTOP = EMC_TASK_STATE_ESTOP, OFF = EMC_TASK_STATE_ESTOP_RESET, ON = EMC_TASK_STATE_ON;
+constexpr int MANUAL = EMC_TASK_MODE_MANUAL, AUTO = EMC_TASK_MODE_AUTO, MDI = EMC_TASK_MODE_MDI;
+const char *const DWELL = "G4 P1000";
+
+const Standing STANDINGS[] = {
+    {"estop", 0, ESTOP, MANUAL, false, nullptr, nullptr, false},
+    {"off in manual", 0, OFF, MANUAL, false, nullptr, nullptr, false},
+    {"off in auto", 0, OFF, AUTO, false, nullptr, nullptr, false},
+    {"off in MDI", 0, OFF, MDI, false, nullptr, nullptr, false},
+    {"manual, joints", 1, ON, MANUAL, false, nullptr, nullptr, false},
+    {"manual, axes", 1, ON, MANUAL, true, nullptr, nullptr, false},
+    {"auto idle", 2, ON, AUTO, false, nullptr, nullptr, false},
+    {"auto reading", 3, ON, AUTO, false, "reading.ngc", nullptr, false}, // a queue buster behind a long dwell
+    {"auto paused", 4, ON, AUTO, false, "reading.ngc", nullptr, true},
+    {"auto waiting", 5, ON, AUTO, false, "waiting.ngc", nullptr, false},
+    {"MDI idle", 6, ON, MDI, false, nullptr, nullptr, false},
+    {"MDI running", 6, ON, MDI, false, nullptr, DWELL, false},
+    {"MDI paused", 6, ON, MDI, false, nullptr, DWELL, true},
+};
+const char *const INTERPRETER[] = {"", "", "idle", "reading", "paused", "waiting"};
 
 struct Tester {
     EmcClient client;
@@ -57,51 +87,79 @@ struct Tester {
         plain<EMC_TASK_PLAN_RUN>();
     }
 
-    bool enter(int situation) {
+    // Teleop needs homed joints; unhomed the machine stays in joint mode.
+    bool enter(const Standing &to, bool homed) {
         plain<EMC_TASK_ABORT>();
         until([&] { return stat.task.interpState == EMC_TASK_INTERP_IDLE && stat.task.execState == EMC_TASK_EXEC_DONE; });
         state(EMC_TASK_STATE_ESTOP_RESET);
-        if (situation == 0) {
-            state(EMC_TASK_STATE_OFF);
-            bool good = until([&] { return stat.task.state == EMC_TASK_STATE_ESTOP_RESET; });
-            messages();
-            return good;
-        }
         state(EMC_TASK_STATE_ON);
-        if (!until([&] { return stat.task.state == EMC_TASK_STATE_ON; })) return false;
-        mode(EMC_TASK_MODE_MANUAL);
-        if (!until([&] { return stat.task.mode == EMC_TASK_MODE_MANUAL; })) return false;
-        if (situation >= 2) {
-            int m = situation == 6 ? EMC_TASK_MODE_MDI : EMC_TASK_MODE_AUTO;
-            mode(m);
-            if (!until([&] { return stat.task.mode == m; })) return false;
+        if (!until([&] { return stat.task.state == ON; })) return false;
+        mode(MANUAL);
+        if (!until([&] { return stat.task.mode == MANUAL; })) return false;
+        if (to.mode != MANUAL) {
+            mode(to.mode);
+            if (!until([&] { return stat.task.mode == to.mode; })) return false;
+        } else {
+            EMC_TRAJ_SET_TELEOP_ENABLE teleop;
+            teleop.enable = to.teleop && homed;
+            give(teleop);
+            const int want = teleop.enable ? EMC_TRAJ_MODE_TELEOP : EMC_TRAJ_MODE_FREE;
+            if (!until([&] { return stat.motion.traj.mode == want; })) return false;
+        }
+        if (to.state != ON) {
+            state(to.state == ESTOP ? EMC_TASK_STATE_ESTOP : EMC_TASK_STATE_OFF);
+            if (!until([&] { return stat.task.state == to.state && stat.task.mode == to.mode; })) return false;
         }
         bool good = true;
-        if (situation == 3) { // a queue buster behind a long dwell keeps it reading
-            run("reading.ngc");
-            good = until([&] { return stat.task.interpState == EMC_TASK_INTERP_READING && stat.task.execState == EMC_TASK_EXEC_WAITING_FOR_DELAY; });
-        } else if (situation == 4) {
-            run("reading.ngc");
-            until([&] { return stat.task.execState == EMC_TASK_EXEC_WAITING_FOR_DELAY; });
+        if (to.program || to.mdi) {
+            if (to.program) {
+                run(to.program);
+            } else {
+                EMC_TASK_PLAN_EXECUTE execute;
+                copy_text(execute.command, to.mdi);
+                give(execute);
+            }
+            const int want = to.column == 5 ? EMC_TASK_INTERP_WAITING : EMC_TASK_INTERP_READING;
+            good = until([&] { return stat.task.interpState == want && stat.task.execState == EMC_TASK_EXEC_WAITING_FOR_DELAY; });
+        }
+        if (to.pause) {
             plain<EMC_TASK_PLAN_PAUSE>();
-            good = until([&] { return stat.task.interpState == EMC_TASK_INTERP_PAUSED; });
-        } else if (situation == 5) {
-            run("waiting.ngc");
-            good = until([&] { return stat.task.interpState == EMC_TASK_INTERP_WAITING && stat.task.execState == EMC_TASK_EXEC_WAITING_FOR_DELAY; });
+            good = good && until([&] { return stat.task.interpState == EMC_TASK_INTERP_PAUSED; });
         }
         messages();
         return good;
     }
 };
 
-std::string refusal(NMLTYPE type, int situation) {
+std::string refusal(NMLTYPE type, int column) {
     std::string name = emc_symbol_lookup(type), number = std::to_string(type);
-    switch (situation) {
+    switch (column) {
     case 0: return "command (" + name + ") cannot be executed until the machine is out of E-stop and turned on";
     case 1: return "can't do that (" + name + ":" + number + ") in manual mode";
     case 6: return "can't do that (" + name + ":" + number + ") in MDI mode";
-    default: return "can't do that (" + name + ") in auto mode with the interpreter " + (SITUATIONS[situation] + 5);
+    default: return "can't do that (" + name + ") in auto mode with the interpreter " + INTERPRETER[column];
     }
+}
+
+// y taken, n refused as documented, ? refused otherwise; ! refused but the status is not ERROR.
+std::string answer(Tester &t, const nml::MessageType &type, const Standing &to, bool homed) {
+    if (!t.enter(to, homed)) {
+        printf("can't get into %s (%s): state %d mode %d interpreter %d\n", to.name, homed ? "homed" : "not homed", t.stat.task.state, t.stat.task.mode, t.stat.task.interpState);
+        exit(1);
+    }
+    std::vector<unsigned char> raw(static_cast<size_t>(type.size));
+    RCS_CMD_MSG &m = *reinterpret_cast<RCS_CMD_MSG *>(raw.data());
+    m._type = type.type;
+    m.size = type.size;
+    if (type.type == EMC_TASK_SET_MODE_TYPE) static_cast<EMC_TASK_SET_MODE &>(m).mode = MANUAL;
+    if (type.type == EMC_TASK_SET_STATE_TYPE) static_cast<EMC_TASK_SET_STATE &>(m).state = ON;
+    if (type.type == EMC_TASK_PLAN_OPEN_TYPE) copy_text(static_cast<EMC_TASK_PLAN_OPEN &>(m).file, "waiting.ngc");
+    t.give(m);
+    t.until([&] { return t.stat.echo_serial_number >= t.client.serial(); });
+    std::string said = t.messages(), text = refusal(type.type, to.column);
+    bool refused = said.find(text + "\n") != std::string::npos;
+    if (!refused && (said.find("can't do that") != std::string::npos || said.find("cannot be executed") != std::string::npos)) return "?";
+    return refused && t.stat.status != RCS_ERROR ? "n!" : refused ? "n" : "y";
 }
 
 } // namespace
@@ -109,33 +167,29 @@ std::string refusal(NMLTYPE type, int situation) {
 int main() {
     kerf_clock_join("command-table", KERF_CLOCK_PRIO_TEST);
     Tester t;
+    printf("%-40s", "");
+    for (const Standing &s : STANDINGS) printf(" %s;", s.name);
+    printf(" not homed, then homed\n");
     // Commands that only the interpreter gives, and structures, have no row.
-    for (const nml::MessageType &type : emc_messages().all()) {
-        if (type.kind != nml::Kind::command) continue;
-        std::string line;
-        for (int s = 0; s < 7; s++) {
-            if (!t.enter(s)) {
-                printf("can't get into %s\n", SITUATIONS[s]);
-                return 1;
-            }
-            std::vector<unsigned char> raw(static_cast<size_t>(type.size));
-            RCS_CMD_MSG &m = *reinterpret_cast<RCS_CMD_MSG *>(raw.data());
-            m._type = type.type;
-            m.size = type.size;
-            if (type.type == EMC_TASK_SET_MODE_TYPE) static_cast<EMC_TASK_SET_MODE &>(m).mode = EMC_TASK_MODE_MANUAL;
-            if (type.type == EMC_TASK_SET_STATE_TYPE) static_cast<EMC_TASK_SET_STATE &>(m).state = EMC_TASK_STATE_ON;
-            if (type.type == EMC_TASK_PLAN_OPEN_TYPE) copy_text(static_cast<EMC_TASK_PLAN_OPEN &>(m).file, "waiting.ngc");
-            t.give(m);
-            t.until([&] { return t.stat.echo_serial_number >= t.client.serial(); });
-            std::string said = t.messages(), text = refusal(type.type, s);
-            bool refused = said.find(text + "\n") != std::string::npos;
-            if (!refused && said.find("can't do that") != std::string::npos) line += '?';
-            else line += refused ? 'n' : 'y';
-            if (refused && t.stat.status != RCS_ERROR) line += '!';
+    std::vector<const nml::MessageType *> types;
+    std::vector<std::string> lines;
+    for (const nml::MessageType &type : emc_messages().all())
+        if (type.kind == nml::Kind::command) types.push_back(&type);
+    lines.resize(types.size());
+    for (bool homed : {false, true}) {
+        for (int j = 0; homed && j < 3; j++) {
+            t.enter(STANDINGS[4], false);
+            EMC_JOINT_HOME home;
+            home.joint = j;
+            t.give(home);
+            t.until([&] { return t.stat.motion.joint[j].homed != 0; });
         }
-        printf("%-40s %s\n", type.name, line.c_str());
-        fflush(stdout);
+        for (size_t i = 0; i < types.size(); i++) {
+            if (homed) lines[i] += ' ';
+            for (const Standing &s : STANDINGS) lines[i] += answer(t, *types[i], s, homed);
+        }
     }
+    for (size_t i = 0; i < types.size(); i++) printf("%-40s %s\n", types[i]->name, lines[i].c_str());
     t.plain<EMC_TASK_ABORT>();
     kerf_clock_leave();
     return 0;
