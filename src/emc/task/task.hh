@@ -97,6 +97,7 @@ private:
     void wait_for(bool motion, bool io);
     void wait_delay();
     void wait_system_command();
+    int user_code_failed(); // -1
     void wait_orient();
     void recover();
     void set_exec(int state);

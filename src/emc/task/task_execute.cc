@@ -187,9 +187,16 @@ void Task::wait_delay() {
     eager_ = true;
 }
 
+int Task::user_code_failed() {
+    const int line = stat_.task.currentLine;
+    operator_error(((line > 0 ? "line " + std::to_string(line) + ": " : "") + child_.failure()).c_str());
+    return -1;
+}
+
 void Task::wait_system_command() {
     int r = child_.poll();
     if (r == 0) return;
+    if (r < 0) user_code_failed();
     set_exec(r > 0 ? EMC_TASK_EXEC_DONE : EMC_TASK_EXEC_ERROR);
     eager_ = true;
 }
@@ -246,8 +253,7 @@ int Task::issue(const NMLmsg &m) {
     case EMC_OPERATOR_ERROR_TYPE: operator_error(as<EMC_OPERATOR_ERROR>(m).error); return 0;
     case EMC_OPERATOR_TEXT_TYPE: operator_text(as<EMC_OPERATOR_TEXT>(m).text); return 0;
     case EMC_OPERATOR_DISPLAY_TYPE: operator_display(as<EMC_OPERATOR_DISPLAY>(m).display); return 0;
-    case EMC_SYSTEM_CMD_TYPE: return child_.start(as<EMC_SYSTEM_CMD>(m).string) ? 0 : -1;
-
+    case EMC_SYSTEM_CMD_TYPE: return child_.start(as<EMC_SYSTEM_CMD>(m).string) ? 0 : user_code_failed();
     case EMC_TRAJ_LINEAR_MOVE_TYPE: return motion_.linear_move(as<EMC_TRAJ_LINEAR_MOVE>(m));
     case EMC_TRAJ_CIRCULAR_MOVE_TYPE: return motion_.circular_move(as<EMC_TRAJ_CIRCULAR_MOVE>(m));
     case EMC_TRAJ_PROBE_TYPE: return motion_.probe(as<EMC_TRAJ_PROBE>(m));

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -71,7 +72,12 @@ bool Child::start(const char *command_line) {
         word += *c;
         any = true;
     }
-    if (words.empty()) return false;
+    collect();
+    if (words.empty()) {
+        failure_ = "a user's program without a name can not be started";
+        return false;
+    }
+    name_ = words[0];
     std::vector<char *> argv;
     for (std::string &w : words) argv.push_back(w.data());
     argv.push_back(nullptr);
@@ -82,6 +88,7 @@ bool Child::start(const char *command_line) {
     if (pid_ < 0) {
         kerf_clock_unreserve(slot);
         pid_ = 0;
+        failure_ = name_ + " can not be started: " + strerror(errno);
         return false;
     }
     if (pid_ == 0) {
@@ -103,12 +110,22 @@ int Child::poll() {
     if (r == 0) return 0;
     if (r < 0 && errno == EINTR) return 0;
     pid_ = 0;
-    return r > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 1 : -1;
+    if (r > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return 1;
+    if (r < 0) failure_ = name_ + " is lost: " + strerror(errno);
+    else if (WIFSIGNALED(status)) failure_ = name_ + " was ended by signal " + std::to_string(WTERMSIG(status));
+    else if (WEXITSTATUS(status) == 127) failure_ = name_ + " can not be run (status 127)";
+    else failure_ = name_ + " ended with status " + std::to_string(WEXITSTATUS(status));
+    return -1;
 }
 
 void Child::interrupt() {
     if (!running()) return;
     kill(pid_, SIGINT);
-    waitpid(pid_, nullptr, WNOHANG); // the rest of it is collected by the kernel when task ends
+    left_.push_back(pid_); // it may take its time
     pid_ = 0;
+    collect();
+}
+
+void Child::collect() {
+    left_.erase(std::remove_if(left_.begin(), left_.end(), [](pid_t pid) { return waitpid(pid, nullptr, WNOHANG) != 0; }), left_.end());
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "inifile.hh"
 
@@ -28,9 +29,13 @@ public:
     bool running() const { return pid_ > 0; }
     // 0 still running, 1 ended with status 0, -1 ended otherwise
     int poll();
+    const std::string &failure() const { return failure_; } // of the last one that did not end well: a sentence
     void interrupt(); // SIGINT
 private:
+    void collect();
     pid_t pid_ = 0;
+    std::string name_, failure_;
+    std::vector<pid_t> left_; // were interrupted
 };
 
 #endif

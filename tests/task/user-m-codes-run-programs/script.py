@@ -1,5 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+import re
+
+import mill
 from mill import *
+
+
+def messages():
+    return [re.sub(r"/\S*/", "", m) for m in mill.messages()]
+
 
 on()
 print(mdi("M101 P1.5"), messages(), open("mcode.log").read().strip(), getp("motion.digital-in-03"))

@@ -1,0 +1,2 @@
+def raises(self, **words):
+    raise ValueError("the remap can not")
