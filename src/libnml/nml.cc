@@ -29,29 +29,6 @@ const char *MessageSet::name(NMLTYPE type) const {
     return m ? m->name : "UNKNOWN";
 }
 
-std::vector<unsigned char> encode_message(const MessageSet &set, const NMLmsg &msg) {
-    const MessageType *m = set.find(msg._type);
-    if (!m) return {};
-    Encoder e;
-    e.word(static_cast<uint32_t>(msg._type));
-    e.hyper(static_cast<uint64_t>(msg.size));
-    m->encode(msg, e);
-    return e.bytes();
-}
-
-bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room) {
-    Decoder d(data, size);
-    NMLTYPE type = static_cast<NMLTYPE>(d.word());
-    d.hyper();
-    const MessageType *m = d.failed() ? nullptr : set.find(type);
-    if (!m || static_cast<size_t>(m->size) > room) return false;
-    memset(static_cast<void *>(msg), 0, static_cast<size_t>(m->size));
-    msg->_type = type;
-    msg->size = m->size;
-    m->decode(*msg, d);
-    return !d.failed();
-}
-
 } // namespace nml
 
 NML_ERROR_TYPE nml_error_of(CMS_STATUS status) {
@@ -86,6 +63,8 @@ NML::NML(const nml::MessageSet &set, const char *buffer, const char *process, co
     if (set_to_server > 0) c->process.server = 1;
     if (set_to_server < 0) c->process.server = 0;
     remote_ = c->process.kind == nml::ProcessKind::remote;
+    force_type_ = c->buffer.force_type;
+    if (remote_) nap_ns_ = static_cast<int64_t>(std::max(c->buffer.poll_interval, 0.02) * 1e9);
     can_read_ = c->process.read || c->process.server;
     can_write_ = c->process.write || c->process.server;
     if (c->process.kind == nml::ProcessKind::phantom || c->buffer.kind == nml::BufferKind::phantom) transport_ = nml::open_phantom(*c);
@@ -117,6 +96,7 @@ NMLTYPE NML::finish_read(CMS_STATUS s) {
     set_status(s);
     if (s == CMS_READ_OLD) return 0;
     if (s != CMS_READ_OK) return -1;
+    if (force_type_ > 0) reinterpret_cast<NMLmsg *>(local_.data())->_type = force_type_;
     NMLTYPE type = get_address()->_type;
     if (type <= 0) {
         rcs_print_error("New data received but type of %d is invalid.\n", type);
@@ -152,8 +132,9 @@ NMLTYPE NML::blocking_read(double t) {
     for (;;) {
         NMLTYPE type = read();
         if (type != 0) return type;
-        int64_t now = kerf_clock_now_ns(), nap = 1000000;
+        int64_t now = kerf_clock_now_ns(), nap = nap_ns_;
         if (t >= 0) {
+            nap = std::max(int64_t(1000000), std::min(nap, static_cast<int64_t>(t * 0.5e9)));
             if (now >= until) { set_status(CMS_TIMED_OUT); return 0; }
             nap = std::min(nap, until - now);
         }

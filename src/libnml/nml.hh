@@ -146,6 +146,8 @@ private:
     std::vector<unsigned char> local_;
     std::unique_ptr<nml::Transport> transport_;
     bool can_read_ = true, can_write_ = true, remote_ = false;
+    NMLTYPE force_type_ = 0;     // of the B line: every message is one of this type
+    int64_t nap_ns_ = 1'000'000; // between the looks of a blocking read
 };
 
 // File used when the constructor gets a null file. Initially the one of this installation.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// nml_code.hh - a message's fields to bytes and back: XDR (RFC 4506), big endian.
+// nml_code.hh - a message's fields to bytes and back: XDR (RFC 4506), big endian, or (disp)
+// text for people: each number or string followed by a comma, docs/nml.md.
 //
 // Encoder and Decoder are visitors: a message class shows each of its fields as
 //     visitor(Field{name, attribute, doc}, member)
@@ -18,6 +19,7 @@
 
 #include "emcpos.h"
 #include "nml.hh"
+#include "nml_config.hh"
 
 namespace nml {
 
@@ -31,18 +33,28 @@ template <class T> constexpr bool is_scalar = std::is_arithmetic_v<T> || std::is
 
 class Encoder {
 public:
+    explicit Encoder(bool text = false) : text_(text) {}
     template <class T> void operator()(const Field &, const T &v) { put(v); }
     const std::vector<unsigned char> &bytes() const { return out_; }
+    // Type and size: 12 bytes of XDR, or 16 of text.
+    void head(int32_t type, int64_t size);
     void word(uint32_t w) { for (int s = 24; s >= 0; s -= 8) out_.push_back(static_cast<unsigned char>(w >> s)); }
     void hyper(uint64_t w) { word(static_cast<uint32_t>(w >> 32)); word(static_cast<uint32_t>(w)); }
 
-    void put(double v) { uint64_t w; std::memcpy(&w, &v, 8); hyper(w); }
+    void put(double v) {
+        if (text_) return put_text(v);
+        uint64_t w;
+        std::memcpy(&w, &v, 8);
+        hyper(w);
+    }
     template <class T> std::enable_if_t<is_scalar<T> && !std::is_floating_point_v<T>> put(const T &v) {
-        if constexpr (std::is_enum_v<T> || sizeof(T) <= 4) word(static_cast<uint32_t>(static_cast<int64_t>(v)));
+        if (text_) put_text(static_cast<int64_t>(v));
+        else if constexpr (std::is_enum_v<T> || sizeof(T) <= 4) word(static_cast<uint32_t>(static_cast<int64_t>(v)));
         else hyper(static_cast<uint64_t>(v));
     }
     template <size_t N> void put(const char (&v)[N]) {
         size_t n = strnlen(v, N);
+        if (text_) return put_text(v, n);
         word(static_cast<uint32_t>(n));
         for (size_t i = 0; i < n; i++) out_.push_back(static_cast<unsigned char>(v[i]));
         while (out_.size() % 4) out_.push_back(0);
@@ -59,14 +71,19 @@ public:
         put(m.command_type); put(m.echo_serial_number); put(m.status); put(m._state);
     }
 private:
+    void put_text(double v);
+    void put_text(int64_t v);
+    void put_text(const char *v, size_t n);
     std::vector<unsigned char> out_;
+    bool text_;
 };
 
 // Reads what Encoder wrote. Reading past the end or a string that does not fit sets
 // failed() and leaves zeros: bytes from the network are never trusted.
 class Decoder {
 public:
-    Decoder(const unsigned char *data, size_t size) : at_(data), end_(data + size) {}
+    Decoder(const unsigned char *data, size_t size, bool text = false) : at_(data), end_(data + size), text_(text) {}
+    int32_t head(); // the type
     bool failed() const { return failed_; }
     template <class T> void operator()(const Field &, T &v) { get(v); }
 
@@ -78,13 +95,19 @@ public:
     }
     uint64_t hyper() { uint64_t h = word(); return h << 32 | word(); }
 
-    void get(double &v) { uint64_t w = hyper(); std::memcpy(&v, &w, 8); }
+    void get(double &v) {
+        if (text_) return get_text(v);
+        uint64_t w = hyper();
+        std::memcpy(&v, &w, 8);
+    }
     template <class T> std::enable_if_t<is_scalar<T> && !std::is_floating_point_v<T>> get(T &v) {
-        if constexpr (std::is_same_v<T, bool>) v = word() != 0;
+        if (text_) v = static_cast<T>(get_text());
+        else if constexpr (std::is_same_v<T, bool>) v = word() != 0;
         else if constexpr (std::is_enum_v<T> || sizeof(T) <= 4) v = static_cast<T>(static_cast<int32_t>(word()));
         else v = static_cast<T>(hyper());
     }
     template <size_t N> void get(char (&v)[N]) {
+        if (text_) return get_text(v, N);
         size_t n = word(), padded = (n + 3) & ~size_t(3);
         std::memset(v, 0, N);
         if (n >= N || padded > static_cast<size_t>(end_ - at_)) { failed_ = true; at_ = end_; return; }
@@ -105,8 +128,12 @@ public:
     }
     void get_status(RCS_STAT_MSG &m) { get(m.command_type); get(m.echo_serial_number); get(m.status); get(m._state); }
 private:
+    bool token(std::string *out);
+    void get_text(double &v);
+    int64_t get_text();
+    void get_text(char *v, size_t room);
     const unsigned char *at_, *end_;
-    bool failed_ = false;
+    bool failed_ = false, text_;
 };
 
 // The entry of a message class in a MessageSet.
@@ -132,10 +159,10 @@ template <class T> MessageType describe(const char *name) {
     return m;
 }
 
-// A whole message as XDR; empty when its type is unknown.
-std::vector<unsigned char> encode_message(const MessageSet &set, const NMLmsg &msg);
-// Fills msg (room bytes) from XDR. False: unknown type, does not fit, malformed.
-bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room);
+// A whole message; empty when its type is unknown.
+std::vector<unsigned char> encode_message(const MessageSet &set, const NMLmsg &msg, Coding coding);
+// Fills msg (room bytes). False: unknown type, does not fit, malformed.
+bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room, Coding coding);
 
 } // namespace nml
 #endif

@@ -82,7 +82,7 @@ std::optional<nml::BufferLine> parse_buffer(const Words &w, const std::string &f
         else if (o == "DISP") b.coding = nml::Coding::disp;
         else if (o == "SERIAL") b.serial = true;
         else if (o == "CONFIRM_WRITE") b.confirm_write = true;
-        else if (o == "FORCE_RAW") b.force_raw = true;
+        else if (o == "FORCE_RAW") b.coding = nml::Coding::raw;
         else if (o == "AUTOCNUM") b.autocnum = true;
         else if (is("TCP=")) b.tcp_port = static_cast<int>(number(v));
         else if (is("UDP=")) b.udp = true;
@@ -114,6 +114,11 @@ bool is_this_host(const std::string &host) {
 
 std::optional<nml::ProcessLine> parse_process(const Words &w, const nml::BufferLine &b) {
     if (w.size() < (b.autocnum ? 9u : 10u)) return {};
+    for (const std::string &word : w)
+        if (upper(word).compare(0, 18, "SERIALPORTDEVNAME=") == 0) {
+            rcs_print_error("TTYMEM not supported on this platform.\n");
+            return {};
+        }
     nml::ProcessLine p;
     std::string kind = upper(w[3]);
     p.name = w[1];

@@ -12,7 +12,7 @@ namespace nml {
 
 enum class BufferKind { shmem, locmem, phantom };
 enum class ProcessKind { local, remote, automatic, phantom };
-enum class Coding { xdr, disp };
+enum class Coding { xdr, disp, raw }; // raw: as in memory, for computers of one kind
 enum class Lock { os_sem, none, refused };
 
 struct BufferLine {
@@ -24,7 +24,7 @@ struct BufferLine {
     int max_procs = 1;
     int key = 0;            // SysV key before it is mapped to the instance
     bool queue = false, diag = false, split = false, serial = false, confirm_write = false;
-    bool force_raw = false, autocnum = false, udp = false;
+    bool autocnum = false, udp = false;
     Coding coding = Coding::xdr;
     Lock lock = Lock::os_sem;
     int tcp_port = 0;

@@ -87,8 +87,11 @@ bool Server::reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, 
     CMS_STATUS s = access == ACCESS_PEEK ? t->peek(raw.data(), &size) : t->read(raw.data(), &size);
     if (only_new && s == CMS_READ_OLD) return false;
     if (s == CMS_READ_OK) {
-        body = encode_message(set_, *reinterpret_cast<NMLmsg *>(raw.data()));
-        if (body.empty()) s = CMS_SERVER_SIDE_ERROR;
+        body = encode_message(set_, *reinterpret_cast<NMLmsg *>(raw.data()), b.line.coding);
+        if (body.empty() || (b.line.enc_max_size > 0 && body.size() > static_cast<size_t>(b.line.enc_max_size))) {
+            body.clear();
+            s = CMS_SERVER_SIDE_ERROR;
+        }
     }
     int was_read = 0;
     t->check_if_read(&was_read);
@@ -151,7 +154,7 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
             NMLmsg *m = reinterpret_cast<NMLmsg *>(raw.data());
             CMS_STATUS s = CMS_UPDATE_ERROR;
             int id = 0;
-            if (decode_message(set_, data, size, m, raw.size())) {
+            if (decode_message(set_, data, size, m, raw.size(), b.line.coding)) {
                 b.channel->write_raw(*m, w3 == ACCESS_WRITE_IF_READ, &id);
                 s = b.channel->status;
             }

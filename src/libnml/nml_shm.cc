@@ -233,6 +233,7 @@ private:
     }
 
     CMS_STATUS take(unsigned char *data, long *size, bool remove) {
+        if (conn_.buffer.lock == Lock::refused) return Locked(*this).status;
         return seg_->queue ? take_queue(data, size, remove) : take_value(data, size, remove);
     }
 

@@ -41,8 +41,9 @@ public:
 
     CMS_STATUS write(const unsigned char *data, long, long, bool only_if_read, int *id) override {
         const NMLmsg &m = *reinterpret_cast<const NMLmsg *>(data);
-        std::vector<unsigned char> body = encode_message(set_, m);
+        std::vector<unsigned char> body = encode_message(set_, m, conn_.buffer.coding);
         if (body.empty()) return CMS_UPDATE_ERROR;
+        if (conn_.buffer.enc_max_size > 0 && body.size() > static_cast<size_t>(conn_.buffer.enc_max_size)) return CMS_INSUFFICIENT_SPACE_ERROR;
         std::vector<unsigned char> reply(conn_.buffer.confirm_write ? 12 : 0);
         CMS_STATUS s = exchange(REQ_WRITE, only_if_read ? ACCESS_WRITE_IF_READ : ACCESS_WRITE, static_cast<uint32_t>(body.size()), body, reply.data(), reply.size());
         if (s != CMS_STATUS_NOT_SET) return s;
@@ -90,7 +91,7 @@ private:
         std::vector<unsigned char> body(bytes);
         if (bytes && !receive(body.data(), bytes)) return CMS_TIMED_OUT;
         if (s == CMS_READ_OK) {
-            if (!decode_message(set_, body.data(), body.size(), reinterpret_cast<NMLmsg *>(data), static_cast<size_t>(max_message()))) return CMS_UPDATE_ERROR;
+            if (!decode_message(set_, body.data(), body.size(), reinterpret_cast<NMLmsg *>(data), static_cast<size_t>(max_message()), conn_.buffer.coding)) return CMS_UPDATE_ERROR;
             *size = reinterpret_cast<NMLmsg *>(data)->size;
             last_id_ = static_cast<int>(get_word(r + 12));
         }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 PUBLIC_HEADERS += $(addprefix src/libnml/,nml.hh nml_code.hh nml_config.hh rcs_print.hh)
-LIBNML_SOURCES := $(addprefix src/libnml/,nml.cc nml_config.cc nml_shm.cc nml_tcp.cc nml_server.cc nml_auth.cc rcs_print.cc)
+LIBNML_SOURCES := $(addprefix src/libnml/,nml.cc nml_code.cc nml_config.cc nml_shm.cc nml_tcp.cc nml_server.cc nml_auth.cc rcs_print.cc)
 $(eval $(call library,nml,0,$(LIBNML_SOURCES),linuxcnchal -lpthread -lcrypto))
 
 # Test program of tests/nml: objects/test/nml-test CASE.

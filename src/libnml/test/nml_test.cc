@@ -321,6 +321,25 @@ static void configuration_lines() {
         {"UDP", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 UDP=5\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"GLOBMEM", "a", "p", "B a GLOBMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"remote without a port", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a REMOTE localhost RW 0 1.0 1 0\n"},
+        {"mutex=none", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 mutex=none\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=mao", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=mao semdelay=0.001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=mao_w_os_sem", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=mao_w_os_sem\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=mao_split", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 split mutex=mao_split\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=no_interrupts", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 mutex=no_interrupts\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=no_switching", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=no_switching\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"diagnostics, encodings, limits", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 diag ascii disp BSEM=5 BRPI=0.1 enc_max_size=100 version=3.9\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"diagnostics of an old version", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 diag VERSION=3.7\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"four parts", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 subdiv=4\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"parts too small for the message", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 subdiv=400\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"every message is of one type", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 FORCE_TYPE=124\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"no waiting for the lock", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue\nP p a LOCAL localhost RW 0 0 1 0\n"},
+        {"serial port", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0 serialPortDevName=/dev/ttyS0\n"},
+        {"FILEMEM", "a", "p", "B a FILEMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"RTLMEM", "a", "p", "B a RTLMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"too few words", "a", "p", "B a SHMEM localhost\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"may only write", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost W 0 1.0 1 0\n"},
+        {"may only read", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost R 0 1.0 1 0\n"},
+        {"a server may do both", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost W 1 1.0 1 0\n"},
         {"remote without a server", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 TCP=1\nP p a REMOTE localhost RW 0 1.0 1 0\n"}};
     const char *name = "configuration.nml";
     int fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
@@ -343,6 +362,33 @@ static void configuration_lines() {
     printf("%d\n", NML(emc_messages(), "a", "p", "/nonexistent/file.nml").error_type);
     for (int s = -16; s <= 6; s++) printf("%d->%d ", s, nml_error_of(static_cast<CMS_STATUS>(s)));
     printf("\n");
+}
+
+// What is garbled on its way is refused, or is a message whose strings end. Never more.
+static void garbled_messages_are_refused_or_whole() {
+    std::mt19937 random(3);
+    const nml::MessageSet &set = emc_messages();
+    for (auto [name, coding] : {std::pair{"xdr", nml::Coding::xdr}, {"disp", nml::Coding::disp}, {"raw", nml::Coding::raw}}) {
+        int refused = 0, taken = 0, wrong = 0;
+        for (const nml::MessageType &t : set.all()) {
+            std::vector<unsigned char> raw(static_cast<size_t>(t.size)), back(static_cast<size_t>(t.size));
+            NMLmsg *msg = reinterpret_cast<NMLmsg *>(raw.data()), *got = reinterpret_cast<NMLmsg *>(back.data());
+            msg->_type = t.type;
+            msg->size = t.size;
+            const std::vector<unsigned char> good = nml::encode_message(set, *msg, coding);
+            if (!nml::decode_message(set, good.data(), good.size(), got, back.size(), coding) || nml::encode_message(set, *got, coding) != good) wrong++;
+            for (int n = 0; n < 50; n++) {
+                std::vector<unsigned char> bad = good;
+                for (unsigned k = 1 + random() % 4; k > 0; k--) bad[random() % bad.size()] = static_cast<unsigned char>(random());
+                if (random() % 3 == 0) bad.resize(random() % bad.size());
+                if (!nml::decode_message(set, bad.data(), bad.size(), got, back.size(), coding)) { refused++; continue; }
+                taken++;
+                const std::vector<unsigned char> again = nml::encode_message(set, *got, nml::Coding::xdr);
+                if (again.empty() || !nml::decode_message(set, again.data(), again.size(), got, back.size(), nml::Coding::xdr)) wrong++;
+            }
+        }
+        printf("%s: %s refused, %s taken, wrong %d\n", name, refused > 500 ? "hundreds" : "few", taken > 500 ? "hundreds" : "few", wrong);
+    }
 }
 
 // Permissions, sizes, waiting, was-read marks of one value buffer and one queue.
@@ -396,7 +442,7 @@ int main(int argc, char **argv) {
         {"queue-keeps-order", queue_keeps_order}, {"error-queue-holds-25", error_queue_holds_25}, {"full-queue-refuses", full_queue_refuses},
         {"status-is-last-value", status_is_last_value}, {"status-is-never-torn", status_is_never_torn},
         {"killed-client-blocks-nobody", killed_client_blocks_nobody}, {"many-clients-lose-nothing", many_clients_lose_nothing},
-        {"tcp-carries-every-message", tcp_carries_every_message}, {"configuration-lines", configuration_lines}, {"calls-give-the-documented-results", calls_give_the_documented_results}};
+        {"tcp-carries-every-message", tcp_carries_every_message}, {"configuration-lines", configuration_lines}, {"garbled", garbled_messages_are_refused_or_whole}, {"calls-give-the-documented-results", calls_give_the_documented_results}};
     auto it = argc > 1 ? cases.find(argv[1]) : cases.end();
     if (it == cases.end()) {
         for (auto &c : cases) printf("%s\n", c.first.c_str());

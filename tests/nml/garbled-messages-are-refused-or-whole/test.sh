@@ -1,0 +1,2 @@
+#!/bin/bash
+exec "$EMC2_HOME/objects/test/nml-test" garbled
