@@ -27,7 +27,7 @@ GROUPS = {
     "Buttons, switches and messages": """radiobutton multiswitch toggle toggle2nist momentary2nist multiclick
         matrix_kb sim_matrix_kb enum debounce dbounce message pushmsg lcd mqtt-publisher reset sample_hold
         knob2float updown
-        xhc_hb04_util joyhandle hal_input sendkeys hal_bridge""",
+        xhc_hb04_util joyhandle hal_input sendkeys hal_bridge panelui""",
     "Safety": "estop_latch safety_latch charge_pump watchdog joint_axis_mapper",
     "Arithmetic": """abs abs_s32 abs_s64 sum2 mult2 div2 invert scale offset hypot scaled_s32_sums weighted_sum
         blend feedcomp deadzone minmax near comp wcomp led_dim clarke2 clarke3 clarkeinv lincurve modmath

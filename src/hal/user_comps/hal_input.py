@@ -24,18 +24,17 @@ if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
 import hal
-from kerf import clock, event_codes
+from kerf import event_codes
+from kerf.haltools.input_events import EV_ABS, EV_KEY, EV_LED, EV_REL, EVENT, event, run
 
 NAME = "hal_input"
 POLL_S = 0.01
 KINDS = "KRAL"
-EV_KEY, EV_REL, EV_ABS, EV_LED = 1, 2, 3, 0x11
 EV_OF = {"K": EV_KEY, "R": EV_REL, "A": EV_ABS, "L": EV_LED}
 TABLES = {"K": ("KEY", event_codes.KEY), "R": ("REL", event_codes.REL), "A": ("ABS", event_codes.ABS),
           "L": ("LED", event_codes.LED)}
 # Buttons of a gamepad have two names.
 ALIASES = {0x130: "BTN_A", 0x131: "BTN_B", 0x133: "BTN_X", 0x134: "BTN_Y"}
-EVENT = struct.Struct("llHHi")
 MOVED = 0.01                # of full scale: is-pos, is-neg
 
 
@@ -89,12 +88,12 @@ class EventDevice:
                 data = os.read(self.fd, 64 * EVENT.size)
             except BlockingIOError:
                 return found
-            found += [event[2:] for event in EVENT.iter_unpack(data)]
+            found += [one[2:] for one in EVENT.iter_unpack(data)]
             if len(data) < 64 * EVENT.size:
                 return found
 
     def set_led(self, code, on):
-        os.write(self.fd, EVENT.pack(0, 0, EV_LED, code, on))
+        os.write(self.fd, event(EV_LED, code, on))
 
     def close(self):
         os.close(self.fd)
@@ -206,10 +205,10 @@ class Input:
             if abs(value - self.pins[name + "-counts"]) > self.pins[name + "-fuzz"]:
                 self.pins[name + "-counts"] = value
 
-    def update(self):
+    def step(self):
         """Takes all events and brings the pins up to date."""
-        for event in self.device.events():
-            self.take(*event)
+        for change in self.device.events():
+            self.take(*change)
         for code in self.codes["R"]:
             name = self.prefix + names_of("R", code)[0]
             if self.pins[name + "-reset"]:
@@ -250,14 +249,7 @@ def main():
     component = hal.component(NAME, "input")
     inputs = [Input(component, number, device, kinds) for number, (device, kinds) in enumerate(devices)]
     component.ready()
-    clock.join(NAME, 500)
-    while True:
-        for one in inputs:
-            try:
-                one.update()
-            except OSError as error:
-                sys.exit(f"{NAME}: {one.device.path}: {error.strerror}")
-        clock.sleep(POLL_S)
+    run(NAME, inputs, POLL_S, lambda one, error: f"{one.device.path}: {error.strerror}")
 
 
 if __name__ == "__main__":

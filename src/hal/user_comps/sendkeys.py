@@ -20,13 +20,11 @@ if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
 import hal
-from kerf import clock
+from kerf.haltools.input_events import EV_KEY, EV_SYN, event, run
 
 NAME = "sendkeys"
 POLL_S = 0.001
 DOWN, UP, FLAGS, CODE = 0xC0, 0x80, 0xC0, 0x3F      # of keycode
-EV_SYN, EV_KEY = 0, 1
-EVENT = struct.Struct("llHHi")
 UI_SET_EVBIT, UI_SET_KEYBIT, UI_DEV_CREATE = 0x40045564, 0x40045565, 0x5501
 MAX_SCAN = CODE + 1
 
@@ -44,7 +42,7 @@ class Keyboard:
         fcntl.ioctl(self.fd, UI_DEV_CREATE)
 
     def send(self, key, pressed):
-        os.write(self.fd, EVENT.pack(0, 0, EV_KEY, key, pressed) + EVENT.pack(0, 0, EV_SYN, 0, 0))
+        os.write(self.fd, event(EV_KEY, key, pressed) + event(EV_SYN, 0, 0))
 
 
 class Keys:
@@ -119,14 +117,8 @@ def main():
     component = hal.component(NAME)
     instances = [Keys(component, n, *part) for n, part in enumerate(parts)]
     component.ready()
-    clock.join(NAME, 500)
-    while True:
-        for one in instances:
-            try:
-                one.step()
-            except OSError as error:
-                sys.exit(f"{NAME}: /dev/uinput: {error.strerror} (its group, or a udev rule, gives access)")
-        clock.sleep(POLL_S)
+    run(NAME, instances, POLL_S,
+        lambda _, error: f"/dev/uinput: {error.strerror} (its group, or a udev rule, gives access)")
 
 
 if __name__ == "__main__":

@@ -75,6 +75,60 @@ def requests() -> None:
             pass
 
 
+def screen(session: Session, folder: str) -> None:
+    """What a screen does: reads requests, tells what was chosen on it."""
+    try:
+        import zmq
+    except ImportError:
+        print("python3-zmq is not installed", file=sys.stderr)
+        return
+    read, write = zmq.Context.instance().socket(zmq.SUB), zmq.Context.instance().socket(zmq.PUB)
+    read.setsockopt(zmq.SUBSCRIBE, b"STATUSREQUEST")
+    read.setsockopt(zmq.RCVTIMEO, 20000)
+    read.connect(f"ipc://{folder}/w")
+    write.bind(f"ipc://{folder}/r")
+
+    def hal(*words: str) -> str:
+        return session.command(folder, "halcmd", *words)[1].strip()
+
+    def tell(name: str, *arguments: object) -> None:
+        write.send_multipart([b"QTVCP", json.dumps({"MESSAGE": name, "ARGS": arguments}).encode()])
+
+    def told(pin: str, want: str, name: str, *arguments: object) -> None:
+        """A message is lost while the other side is still connecting: it is said again."""
+        for _ in range(2000):
+            tell(name, *arguments)
+            session.command(folder, "kerf-clock", "sleep", "0.1")
+            if hal("getp", pin) == want:
+                return
+        mistakes.append(f"{pin} is {hal('getp', pin)}, told {name} {arguments}")
+    told("bridge.jog-rate", "120", "jograte-changed", 120)
+    told("bridge.jog-increment", "0.1", "jogincrements-changed", [0.1, "0.1 mm"])
+    told("bridge.joint-selected", "2", "joint-selection-changed", 2)
+    told("bridge.axis-y-is-selected", "TRUE", "axis-selection-changed", "Y")
+    told("bridge.axis-y-is-selected", "FALSE", "axis-selection-changed", "X")
+    while not read.poll(20):        # until the subscription has arrived
+        hal("setp", "bridge.ok-in", "0")
+        session.command(folder, "kerf-clock", "sleep", "0.2")
+        hal("setp", "bridge.ok-in", "1")
+        session.command(folder, "kerf-clock", "sleep", "0.2")
+    got = []
+    for pin, value in (("cycle-start-in", "1"), ("cycle-pause-in", "1"), ("cycle-pause-in", "0"), ("jog-rate-in", "77.5"),
+                       ("axis-c-select", "1"), ("ini-mdi-cmd-HOME", "1")):
+        hal("setp", f"bridge.{pin}", value)
+        session.command(folder, "kerf-clock", "sleep", "0.2")
+    while len(got) < 6:
+        topic, text = read.recv_multipart()
+        message = json.loads(text)
+        if message["FUNCTION"] != "request_ok":
+            got.append((topic, message["FUNCTION"], message["ARGS"]))
+    check("requests", got, [(b"STATUSREQUEST", name, value) for name, value in (
+        ("request_cycle_start", True), ("request_cycle_pause", True), ("request_cycle_pause", False), ("set_jograte", 77.5),
+        ("set_selected_axis", "C"), ("request_macro_call", "ini-mdi-cmd-HOME"))])
+    read.close()
+    write.close()
+
+
 def program() -> None:
     session = Session("bridge")
     with tempfile.TemporaryDirectory() as folder:
@@ -94,6 +148,7 @@ def program() -> None:
             wanted |= {f"axis-{a}-{what}" for a in "xyc" for what in ("select", "is-selected")}
             check("pins", names ^ wanted, set())
             session.command(folder, "kerf-clock", "sleep", "0.3")
+            screen(session, folder)
             if session.command(folder, "halcmd", "unloadusr", "bridge")[0]:
                 mistakes.append("bridge has ended by itself")
             session.command(folder, "halcmd", "waitusr", "-i", "bridge")

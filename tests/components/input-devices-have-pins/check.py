@@ -72,23 +72,23 @@ def pins() -> None:
     check("wheel", [p["0.rel-wheel-" + n] for n in ("counts", "position", "reset", "scale")], [0, 0.0, False, 1.0])
     check("only keys", sorted(n for n in one_of("K") if "key-a" not in n)[:1], ["1.btn-a"])
     check("no axes", [n for n in one_of("K") if "abs" in n or "rel" in n or "led" in n], [])
-    one.update()
+    one.step()
     check("at rest", (p["0.abs-x-position"], pad.leds), (0.5 / 127.5, [(1, False)]))
     pad.queue = [(1, 0x130, 1), (1, 30, 2), (2, 8, -1), (2, 8, -2), (3, 0, 255), (0, 0, 0), (1, 999, 1)]
     p["0.led-capsl"], p["0.rel-wheel-scale"] = True, 2.0
-    one.update()
+    one.step()
     check("pressed", [p["0." + n] for n in ("btn-a", "btn-south", "btn-south-not", "key-a")], [True, True, False, True])
     check("turned", (p["0.rel-wheel-counts"], p["0.rel-wheel-position"]), (-3, -1.5))
     check("right", (p["0.abs-x-counts"], p["0.abs-x-position"], p["0.abs-x-is-pos"], p["0.abs-x-is-neg"]),
           (255, 1.0, True, False))
     pad.queue = [(3, 0, 253), (1, 0x130, 0)]
     p["0.rel-wheel-reset"], p["0.led-capsl-invert"], p["0.abs-x-scale"] = True, True, -127.5
-    one.update()
+    one.step()
     check("within fuzz", (p["0.abs-x-counts"], p["0.abs-x-is-neg"]), (255, True))
     check("reset", p["0.rel-wheel-position"], 0.0)
     check("released", p["0.btn-a"], False)
     pad.queue = [(3, 0, 140)]
-    one.update()
+    one.step()
     check("flat", (p["0.abs-x-counts"], p["0.abs-x-position"]), (127, 0.5 / 127.5))
     check("led", pad.leds, [(1, False), (1, True), (1, False)])
 
