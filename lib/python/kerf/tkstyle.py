@@ -20,10 +20,10 @@ from tkinter import ttk
 
 LIGHT = {"face": "#eceae6", "ink": "#1c1c1a", "field": "#ffffff", "line": "#b8b4ac", "pressed": "#dcd8d0", "select": "#2563a8",
          "faint": "#6a6a66", "off": "#8c8c86", "good": "#18794e", "bad": "#b3261e", "warn": "#ffd75e", "pin": "#1c1c1a",
-         "signal": "#1f45c4", "param": "#6e3400", "true": "#ffe000", "false": "#b22222", "chart": "#2563a8", "heading": "#dcd8d0"}
+         "signal": "#1f45c4", "param": "#6e3400", "true": "#ffe000", "false": "#b22222", "on": "#ff5a4d", "chart": "#2563a8", "heading": "#dcd8d0"}
 DARK = {"face": "#2b2d30", "ink": "#e8e6e3", "field": "#1e1f22", "line": "#55585c", "pressed": "#3d4045", "select": "#3d7dc8",
         "faint": "#a5a5a0", "off": "#7c7c78", "good": "#6cc998", "bad": "#ff8a80", "warn": "#6b5600", "pin": "#e8e6e3",
-        "signal": "#8fb1ff", "param": "#e0a070", "true": "#ffe000", "false": "#b22222", "chart": "#6ba6e8", "heading": "#3a3d41"}
+        "signal": "#8fb1ff", "param": "#e0a070", "true": "#ffe000", "false": "#b22222", "on": "#d8382c", "chart": "#6ba6e8", "heading": "#3a3d41"}
 NORMAL_PX = 13          # height of letters at a scale of 1, pixels
 SMALL_SCREEN = 700      # pixels: less high screens have smaller letters
 MAX_SCALE = 3.0

@@ -6,7 +6,6 @@ sim_pin [--title TITLE] NAME[/mode=pulse|toggle|hold] ...
 """
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -14,11 +13,11 @@ here = Path(__file__).resolve().parent
 if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
+from kerf import tkstyle
 from kerf.haltools.writable import Button, Item, NotWritable
 
 POLL_MS = 100
 PULSE_MS = 200          # longer than any poll of a program
-ON, OFF = "#ff5a4d", "#d9d9d9"
 
 
 def split(word):
@@ -51,11 +50,12 @@ def number(calculator, text, kind):
 class Row:
     """One item in the window."""
 
-    def __init__(self, parent, item, mode, choice, say):
+    def __init__(self, parent, style, item, mode, choice, say):
         import tkinter as tk
-        self.tk, self.item, self.say = tk, item, say
-        self.frame = tk.LabelFrame(parent, text=f"{item.name} ({item.kind} {item.what})", padx=6, pady=4)
-        self.frame.pack(fill="x", padx=6, pady=3)
+        from tkinter import ttk
+        self.tk, self.ttk, self.style, self.item, self.say = tk, ttk, style, item, say
+        self.frame = ttk.LabelFrame(parent, text=f"{item.name} ({item.kind} {item.what})", padding=style.px(6))
+        self.frame.pack(fill="x", padx=style.px(6), pady=style.px(3))
         (self.bit if item.kind == "bit" else self.numeric)(mode, choice)
 
     def try_to(self, action, *arguments):
@@ -69,7 +69,7 @@ class Row:
             return None
 
     def bit(self, mode, choice):
-        tk, button = self.tk, Button(self.item, mode)
+        tk, ttk, button = self.tk, self.ttk, Button(self.item, mode)
         self.button = tk.Button(self.frame, width=10)
         self.button.bind("<ButtonPress-1>", lambda _: self.press(button))
         self.button.bind("<ButtonRelease-1>", lambda _: self.try_to(button.release))
@@ -79,20 +79,20 @@ class Row:
         if choice:
             self.mode = tk.StringVar(value=mode)
             for name in Button.MODES:
-                tk.Radiobutton(self.frame, text=name.capitalize(), value=name, variable=self.mode,
-                               command=lambda: setattr(button, "mode", self.mode.get())).pack(side="left")
+                ttk.Radiobutton(self.frame, text=name.capitalize(), value=name, variable=self.mode,
+                                command=lambda: setattr(button, "mode", self.mode.get())).pack(side="left", padx=self.style.px(4))
         else:
-            tk.Label(self.frame, text=mode.capitalize()).pack(side="left", padx=6)
+            ttk.Label(self.frame, text=mode.capitalize()).pack(side="left", padx=self.style.px(6))
 
     def press(self, button):
         if self.try_to(button.press):
             self.frame.after(PULSE_MS, lambda: self.try_to(button.end_pulse))
 
     def numeric(self, _mode, _choice):
-        tk = self.tk
-        self.value = tk.Label(self.frame, width=24, anchor="e", relief="sunken")
+        ttk = self.ttk
+        self.value = ttk.Label(self.frame, width=24, anchor="e", relief="sunken", style="Value.TLabel", padding=self.style.px(3))
         self.value.pack(side="left")
-        self.entry = tk.Entry(self.frame, width=14, justify="right")
+        self.entry = ttk.Entry(self.frame, width=14, justify="right")
         self.entry.insert(0, self.item.text().split()[0])
         self.entry.pack(side="left", padx=6)
         self.entry.bind("<Return>", lambda _: self.try_to(self.enter))
@@ -102,7 +102,7 @@ class Row:
             actions += [("-", lambda: self.item.step(-1)), ("+", lambda: self.item.step(1))]
         self.buttons = {}
         for name, action in actions:
-            self.buttons[name] = tk.Button(self.frame, text=name, command=lambda a=action: self.try_to(a))
+            self.buttons[name] = ttk.Button(self.frame, text=name, style="Small.TButton", command=lambda a=action: self.try_to(a))
             self.buttons[name].pack(side="left")
 
     def enter(self):
@@ -112,7 +112,7 @@ class Row:
         """Shows the value. Raises NotWritable when the item is gone."""
         text = self.item.text()
         if self.item.kind == "bit":
-            color = ON if text == "1" else OFF
+            color = self.style.colours["on" if text == "1" else "pressed"]
             self.button.configure(text=f"{'ON' if text == '1' else 'OFF'}", bg=color, activebackground=color)
         else:
             self.value.configure(text=text)
@@ -122,12 +122,13 @@ class Window:
     """items: (Item, mode, whether the choice of modes is shown)."""
 
     def __init__(self, root, title, items):
-        import tkinter as tk
+        from tkinter import ttk
         self.root = root
         root.title(title)
-        self.rows = [Row(root, *item, self.say) for item in items]
-        self.status = tk.Label(root, anchor="w", fg="#a00000", wraplength=480, justify="left")
-        self.status.pack(fill="x", padx=6)
+        style = tkstyle.apply(root)
+        self.rows = [Row(root, style, *item, self.say) for item in items]
+        self.status = ttk.Label(root, anchor="w", style="Bad.TLabel", wraplength=style.px(480), justify="left")
+        self.status.pack(fill="x", padx=style.px(6))
         root.resizable(False, False)
         self.poll()
 
@@ -155,13 +156,7 @@ def main():
         items = [(Item(name), mode, choice) for name, mode, choice in words]
     except (ValueError, NotWritable, RuntimeError) as error:
         sys.exit(f"sim_pin: {error}")
-    if not os.environ.get("DISPLAY"):
-        sys.exit("sim_pin: no display (DISPLAY is not set)")
-    import tkinter
-    try:
-        root = tkinter.Tk(className="sim_pin")
-    except tkinter.TclError as error:
-        sys.exit(f"sim_pin: {error}")
+    root = tkstyle.open_display("sim_pin", "Sim_pin")
     Window(root, options.title, items)
     root.mainloop()
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A window with a button that stands for a probe: motion.probe-input is set while it is pressed."""
 
-import os
 import sys
 from pathlib import Path
 
@@ -11,6 +10,7 @@ if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
 from hal import query
+from kerf import tkstyle
 from kerf.haltools.writable import Item, NotWritable
 
 PIN = "motion.probe-input"
@@ -51,15 +51,17 @@ class Probe:
 class Window:
     def __init__(self, root, probe):
         import tkinter as tk
+        from tkinter import ttk
         self.root, self.probe = root, probe
+        style = tkstyle.apply(root)
         root.title("simulate_probe")
         self.pulse = tk.BooleanVar(root, value=False)
         self.button = tk.Button(root, text=IDLE, width=24, height=3)
         self.color = self.button["bg"]
-        self.button.pack(padx=8, pady=8)
-        self.check = tk.Checkbutton(root, text="Pulse", variable=self.pulse,
-                                    command=lambda: setattr(probe, "pulse", self.pulse.get()))
-        self.check.pack()
+        self.button.pack(padx=style.px(8), pady=style.px(8), fill="both", expand=True)
+        self.check = ttk.Checkbutton(root, text="Pulse", variable=self.pulse,
+                                     command=lambda: setattr(probe, "pulse", self.pulse.get()))
+        self.check.pack(pady=(0, style.px(6)))
         self.button.bind("<ButtonPress-1>", self.press)
         self.button.bind("<ButtonRelease-1>", self.release)
         root.protocol("WM_DELETE_WINDOW", self.close)
@@ -110,13 +112,7 @@ def main():
     except (NotWritable, RuntimeError) as error:
         print(error)
         return 1
-    if not os.environ.get("DISPLAY"):
-        sys.exit("simulate_probe: no display (DISPLAY is not set)")
-    import tkinter
-    try:
-        root = tkinter.Tk(className="simulate_probe")
-    except tkinter.TclError as error:
-        sys.exit(f"simulate_probe: {error}")
+    root = tkstyle.open_display("simulate_probe", "Simulate_probe")
     Window(root, Probe(item))
     root.mainloop()
     return 0

@@ -168,14 +168,17 @@ def print_counts(model: PinHistogram, seconds: int):
 
 
 def show_window(model: PinHistogram, o: argparse.Namespace):
-    from .latency_view import run_window
+    from .. import tkstyle
+    from .latency_view import Bars, Histograms, run
 
-    def refresh(charts):
+    def read(_bins):
         model.read()
-        text = model.summary() + (f" below: {model.low} above: {model.high}" if o.show else "")
-        charts[0].draw(model.counts, o.minvalue, o.minvalue + o.nbins * o.binsize, "", text, bool(o.logscale))
+        text = model.summary() + (f"   off chart: - {model.low}  + {model.high}" if o.show else "")
+        counts = [model.low + model.counts[0], *model.counts[1:-1], model.high + model.counts[-1]] if len(model.counts) > 1 else model.counts
+        return [Bars(counts, o.minvalue, o.minvalue + o.nbins * o.binsize, "", text)]
 
-    run_window("hal-histogram", o.pin, o.text, [o.pin], refresh, model.reset, o.seconds)
+    root = tkstyle.open_display("hal-histogram", "Hal-histogram")
+    run(Histograms(root, "hal-histogram", [], o.text, [o.pin], read, model.reset, bool(o.logscale)), o.seconds)
 
 
 def main(arguments: list[str]) -> int:

@@ -55,29 +55,35 @@ def run_lines(component, worst: Worst, names: dict, seconds: int):
 
 
 def run_window(component, worst: Worst, names: dict, periods: dict, platform: Platform, seconds: int):
-    import tkinter as tk
-    root = tk.Tk()
-    root.title("latency-test")
-    tk.Label(root, text="Let this test run for some minutes while the computer works as hard as it will:\n"
-                        "windows are moved, files copied, graphics drawn.", justify="left").grid(
-        row=0, columnspan=4, sticky="w", padx=6, pady=4)
-    for column, text in enumerate(("", "Max interval (ns)", "Max jitter (ns)", "Last interval (ns)")):
-        tk.Label(root, text=text).grid(row=1, column=column, padx=6)
+    from tkinter import ttk
+
+    from .. import tkstyle
+    root = tkstyle.open_display("latency-test", "Latency-test")
+    style = tkstyle.apply(root)
+    px = style.px
+    root.title("HAL Latency Test")
+    box = ttk.Frame(root, padding=px(10))
+    box.pack(fill="both", expand=True)
+    ttk.Label(box, text="Let this test run for some minutes while the computer works as hard as it will:\n"
+                        "windows are moved, files copied, graphics drawn.", justify="left").grid(row=0, columnspan=4, sticky="w", pady=(0, px(8)))
+    for column, text in enumerate(("", "Max Interval (ns)", "Max Jitter (ns)", "Last interval (ns)")):
+        ttk.Label(box, text=text, anchor="e").grid(row=1, column=column, padx=px(6), sticky="e")
+        box.columnconfigure(column, weight=1)
     cells = {}
     for row, letter in enumerate(worst.letters, 2):
-        tk.Label(root, text=f"{names[letter].capitalize()} thread ({periods[letter] / 1000:g} µs)").grid(
-            row=row, column=0, sticky="w", padx=6)
+        ttk.Label(box, text=f"{names[letter].capitalize()} thread ({periods[letter] / 1000:g} µs):").grid(row=row, column=0, sticky="w")
         for column in (1, 2, 3):
-            cells[letter, column] = tk.Label(root, text="0", width=14, relief="sunken", anchor="e")
-            cells[letter, column].grid(row=row, column=column, padx=6, pady=2)
-    tk.Label(root, text=platform.banner(), justify="left").grid(row=8, columnspan=4, sticky="w", padx=6, pady=4)
+            cells[letter, column] = ttk.Label(box, text="0", width=14, relief="sunken", anchor="e", style="Value.TLabel", padding=px(4))
+            cells[letter, column].grid(row=row, column=column, padx=px(6), pady=px(2), sticky="ew")
+    status = platform.text().split("; ") + platform.doubts()
+    ttk.Label(box, text="\n".join(status), justify="left", wraplength=px(560)).grid(row=8, columnspan=4, sticky="w", pady=px(8))
 
     def reset():
         component["reset"] = True
         worst.reset()
         root.after(100, lambda: component.__setitem__("reset", False))
 
-    tk.Button(root, text="Reset statistics", command=reset).grid(row=9, columnspan=4, pady=4)
+    ttk.Button(box, text="Reset Statistics", command=reset).grid(row=9, columnspan=4)
 
     def tick():
         if not component["reset"]:

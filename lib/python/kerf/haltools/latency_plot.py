@@ -66,37 +66,6 @@ def options(arguments: list[str]) -> argparse.Namespace:
     return o
 
 
-def show_window(trace: IntervalTrace, o: argparse.Namespace, platform: Platform):
-    import tkinter as tk
-    root = tk.Tk()
-    root.title("latency-plot")
-    tk.Label(root, text=platform.banner(), justify="left").pack(anchor="w")
-    charts = {}
-    for name, period in trace.threads:
-        charts[name] = tk.Canvas(root, width=600, height=180, background="white")
-        charts[name].pack(fill="both", expand=True)
-
-    def tick():
-        trace.sample()
-        for name, canvas in charts.items():
-            values = trace.values[name]
-            canvas.delete("all")
-            width, height = canvas.winfo_width(), canvas.winfo_height()
-            top = max(max(values), 1)
-            canvas.create_text(6, 10, anchor="w", text=f"{name}: last {values[-1]} ns, worst {trace.worst[name]} ns")
-            points = [(width - (len(values) - 1 - i) * width / POINTS, height - 4 - (height - 30) * v / top)
-                      for i, v in enumerate(values)]
-            if len(points) > 1:
-                canvas.create_line(*(c for point in points for c in point), fill="#2563a8")
-        if o.points and len(next(iter(trace.values.values()))) >= o.points:
-            root.destroy()
-        else:
-            root.after(o.time, tick)
-
-    root.after(o.time, tick)
-    root.mainloop()
-
-
 def print_lines(trace: IntervalTrace, o: argparse.Namespace):
     count = 0
     while not o.points or count < o.points:
@@ -119,7 +88,8 @@ def main(arguments: list[str]) -> int:
                     print(platform.banner(), flush=True)
                     print_lines(trace, o)
                 else:
-                    show_window(trace, o, platform)
+                    from .latency_view import show_strips
+                    show_strips(trace, o, platform, POINTS)
             except KeyboardInterrupt:
                 pass
     except ToolError as problem:

@@ -1,11 +1,22 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Windows of latency-histogram and hal-histogram: bars on a canvas. Tk only reads models."""
+"""Windows of latency-histogram, hal-histogram and latency-plot: charts on canvases. They only read models."""
 
 import math
+import os
+import shutil
+import subprocess
+import time
 import tkinter as tk
+from dataclasses import dataclass
+from pathlib import Path
+from tkinter import filedialog, ttk
 
-WIDTH, HEIGHT, MARGIN = 720, 240, 30   # pixels of one chart
+from .. import tkstyle
+
+WIDTH, HEIGHT, MARGIN = 720, 220, 30   # pixels of one chart on a usual screen
 PERIOD_MS = 1000                       # between two looks at the model
+BIN_CHOICES = (5, 10, 20, 50, 100, 200, 500)
+GEARS = "glxgears"                     # a program that gives the computer work
 
 
 def bar_heights(counts: list[int], height: float, logarithmic: bool) -> list[float]:
@@ -19,75 +30,270 @@ def bar_heights(counts: list[int], height: float, logarithmic: bool) -> list[flo
     return [height * c / top for c in counts]
 
 
+def gathered(counts: list[int], bins: int) -> list[int]:
+    """The middle bins; what is beyond is in the first and the last of them."""
+    cut = max(0, (len(counts) - 1) // 2 - bins)
+    if not cut:
+        return list(counts)
+    middle = counts[cut:-cut]
+    middle[0] += sum(counts[:cut])
+    middle[-1] += sum(counts[-cut:])
+    return middle
+
+
+@dataclass
+class Bars:
+    """What a chart shows: counts from low to high (in `unit`), figures above them."""
+    counts: list
+    low: float
+    high: float
+    unit: str
+    text: str
+
+
 class Chart(tk.Canvas):
     """Bars with a scale below; title and figures above."""
 
-    def __init__(self, parent, title: str):
-        super().__init__(parent, width=WIDTH, height=HEIGHT, background="white")
-        self.title = title
+    def __init__(self, parent, style, title: str):
+        super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"], highlightthickness=1,
+                         highlightbackground=style.colours["line"])
+        self.style, self.title, self.bars, self.logarithmic = style, title, None, True
+        self.bind("<Configure>", lambda event: self.draw())
 
-    def draw(self, counts: list[int], low: float, high: float, unit: str, text: str, logarithmic: bool):
-        """counts from low to high (same unit)."""
+    def show(self, bars: Bars, logarithmic: bool):
+        self.bars, self.logarithmic = bars, logarithmic
+        self.draw()
+
+    def draw(self):
         self.delete("all")
-        width, height = self.winfo_width() or WIDTH, self.winfo_height() or HEIGHT
-        floor, ceiling = height - MARGIN, MARGIN
-        self.create_text(8, 10, anchor="w", text=f"{self.title}   {text}")
-        if not counts:
+        px, ink = self.style.px, self.style.colours["ink"]
+        width, height, margin = self.winfo_width(), self.winfo_height(), px(MARGIN)
+        floor, ceiling = height - margin, px(2 * MARGIN)
+        self.create_text(px(8), px(6), anchor="nw", text=self.title, font="TkDefaultFont", fill=ink, tags="title")
+        if not self.bars:
             return
-        step = (width - 2 * MARGIN) / len(counts)
-        for i, h in enumerate(bar_heights(counts, floor - ceiling, logarithmic)):
+        bars = self.bars
+        self.create_text(px(8), px(26), anchor="nw", text=bars.text, font="TkDefaultFont", fill=ink, tags="figures")
+        step = (width - 2 * margin) / max(1, len(bars.counts))
+        for i, h in enumerate(bar_heights(bars.counts, floor - ceiling, self.logarithmic)):
             if h > 0:
-                x = MARGIN + i * step
-                self.create_rectangle(x, floor - h, x + max(step, 1), floor, fill="#2563a8", width=0)
-        self.create_line(MARGIN, floor, width - MARGIN, floor)
+                x = margin + i * step
+                self.create_rectangle(x, floor - max(h, 1), x + max(step, 1), floor, fill=self.style.colours["chart"], width=0, tags="bar")
+        self.create_line(margin, floor, width - margin, floor, fill=ink)
         for part in range(5):
-            x = MARGIN + part * (width - 2 * MARGIN) / 4
-            value = low + part * (high - low) / 4
-            self.create_line(x, floor, x, floor + 4)
-            self.create_text(x, floor + 14, text=f"{value:g} {unit}")
+            x = margin + part * (width - 2 * margin) / 4
+            value = bars.low + part * (bars.high - bars.low) / 4
+            self.create_line(x, floor, x, floor + px(4), fill=ink)
+            self.create_text(x, floor + px(15), text=f"{value:g} {bars.unit}", font="TkDefaultFont", fill=ink)
 
 
-def run_window(title: str, banner: str, note: str, charts: list[str], refresh, reset, seconds: int = 0):
-    """A window with charts; refresh(charts) is called each second until it is closed."""
-    root = tk.Tk()
-    root.title(title)
-    tk.Label(root, text=banner, anchor="w", justify="left").pack(fill="x")
-    if note:
-        tk.Label(root, text=note, anchor="w").pack(fill="x")
-    drawn = []
-    for name in charts:
-        chart = Chart(root, name)
-        chart.pack(fill="both", expand=True)
-        drawn.append(chart)
-    buttons = tk.Frame(root)
-    buttons.pack(fill="x")
-    tk.Button(buttons, text="Reset", command=reset).pack(side="left")
-    tk.Button(buttons, text="Quit", command=root.destroy).pack(side="right")
+class Histograms:
+    """read(bins) gives the Bars of all charts; bins: those to show on each side of zero, None: all."""
 
-    def tick():
-        refresh(drawn)
-        root.after(PERIOD_MS, tick)
+    def __init__(self, root, title, lines, note, charts, read, reset, logarithmic=True, most_bins=0, platform=None):
+        self.root, self.read, self.reset_model, self.gears, self.timer = root, read, reset, [], None
+        style = self.style = tkstyle.apply(root)
+        root.title(title)
+        self.start = time.monotonic()
+        if platform:
+            self._footer(platform)
+        self._controls(logarithmic)
+        if most_bins:
+            self._choice(most_bins)
+        for text in list(lines) + ([note] if note else []):
+            ttk.Label(root, text=text, anchor="w", justify="left", padding=(style.px(6), style.px(1))).pack(fill="x")
+        self.charts = [Chart(root, style, name) for name in charts]
+        for chart in self.charts:
+            chart.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(2))
+        root.update_idletasks()
+        tkstyle.centre(root, root.winfo_reqwidth(), root.winfo_reqheight(), (style.px(420), style.px(280)))
+        root.protocol("WM_DELETE_WINDOW", self.close)
+        self.timer = root.after(PERIOD_MS, self.tick)
 
-    root.after(PERIOD_MS, tick)
+    def _footer(self, platform):
+        """Cells with what decides whether the figures say anything."""
+        row = ttk.Frame(self.root)
+        row.pack(side="bottom", fill="x")
+        governor = ",".join(platform.governors) or "unknown"
+        cells = ((platform.realtime, platform.is_realtime and not platform.virtual_clock), (f"governor: {governor}", governor == "performance"),
+                 (f"isolcpus: {platform.isolated or 'none'}", bool(platform.isolated)))
+        for text, good in cells:
+            ttk.Label(row, text=text, relief="sunken", padding=self.style.px(3), anchor="center",
+                      foreground=self.style.colours["good" if good else "bad"]).pack(side="left", fill="x", expand=True)
+
+    def _controls(self, logarithmic):
+        px = self.style.px
+        row = ttk.Frame(self.root, padding=px(4))
+        row.pack(side="bottom", fill="x")
+        self.log = tk.BooleanVar(self.root, logarithmic)
+        self.buttons = {}
+
+        def button(text, action):
+            self.buttons[text] = ttk.Button(row, text=text, command=action)
+            self.buttons[text].pack(side="left", padx=px(3))
+        button("Reset", self.reset)
+        self.log_box = ttk.Checkbutton(row, text="ylogscale", variable=self.log, command=self.show)
+        self.log_box.pack(side="left", padx=px(6))
+        button("Exit", self.close)
+        self.elapsed = ttk.Label(row, text="Elapsed Time: 0 s")
+        self.elapsed.pack(side="left", expand=True)
+        button("Glxgears", self.start_gears)
+        self.gear_count = ttk.Label(row, text="0", width=3)
+        self.gear_count.pack(side="left")
+        button("Screenshot", self.screenshot)
+
+    def _choice(self, most):
+        row = ttk.Frame(self.root, padding=(self.style.px(6), 0))
+        row.pack(side="bottom", fill="x")
+        ttk.Label(row, text="Display +/- bins:").pack(side="left")
+        self.bins = tk.IntVar(self.root, most)
+        self.radios = {}
+        for bins in sorted({b for b in BIN_CHOICES if b < most} | {most}):
+            self.radios[bins] = ttk.Radiobutton(row, text=str(bins), value=bins, variable=self.bins, command=self.show)
+            self.radios[bins].pack(side="left", padx=self.style.px(4))
+
+    def reset(self):
+        self.reset_model()
+        self.start = time.monotonic()
+        self.show()
+
+    def show(self):
+        bins = self.bins.get() if hasattr(self, "bins") else None
+        for chart, bars in zip(self.charts, self.read(bins)):
+            if bars:
+                chart.show(bars, self.log.get())
+        self.elapsed.configure(text=f"Elapsed Time: {int(time.monotonic() - self.start)} s")
+
+    def tick(self):
+        self.show()
+        self.gears = [p for p in self.gears if p.poll() is None]
+        self.gear_count.configure(text=str(len(self.gears)))
+        self.timer = self.root.after(PERIOD_MS, self.tick)
+
+    def start_gears(self):
+        """One more program that draws."""
+        if shutil.which(GEARS):
+            self.gears.append(subprocess.Popen([GEARS], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+            self.gear_count.configure(text=str(len(self.gears)))
+        else:
+            self.buttons["Glxgears"].configure(state="disabled", text=f"no {GEARS}")
+
+    def screenshot(self):
+        folder = Path.home() / "Pictures"
+        self.root.update()
+        box = (self.root.winfo_rootx(), self.root.winfo_rooty(), self.root.winfo_rootx() + self.root.winfo_width(),
+               self.root.winfo_rooty() + self.root.winfo_height())
+        try:
+            from PIL import ImageGrab
+            picture = ImageGrab.grab(bbox=box, xdisplay=os.environ.get("DISPLAY"))
+        except (ImportError, OSError) as error:
+            self.elapsed.configure(text=f"no picture: {error}")
+            return
+        name = filedialog.asksaveasfilename(parent=self.root, initialdir=folder if folder.is_dir() else Path.home(), defaultextension=".png",
+                                            initialfile=f"{self.root.title()}.png", filetypes=(("Pictures", "*.png"),))
+        if name:
+            picture.save(name)
+
+    def close(self):
+        if self.timer:
+            self.root.after_cancel(self.timer)
+        for process in self.gears:
+            process.terminate()
+            process.wait()
+        self.root.destroy()
+
+
+def run(window: Histograms, seconds: int):
+    """Until the window is closed, or so many seconds."""
     if seconds:
-        root.after(seconds * 1000 + PERIOD_MS // 2, root.destroy)
-    root.mainloop()
+        window.root.after(seconds * 1000 + PERIOD_MS // 2, window.close)
+    window.root.mainloop()
+
+
+def latency_bars(meter, show_tails: bool):
+    """The function that gives Histograms the bars of all threads of a meter."""
+    def read(bins):
+        meter.read()
+        found = []
+        for t in meter.figures:
+            if not t.counts:
+                found.append(None)
+                continue
+            low, *counts, high = t.counts
+            whole = [low + counts[0]] + counts[1:-1] + [high + counts[-1]]
+            chosen = min(bins or t.bins, t.bins)
+            edge = chosen * t.bin_ns / 1e3
+            text = t.line(0)[8:].strip()
+            if show_tails:
+                text += f"   off chart: - {low}  + {high}"
+            found.append(Bars(gathered(whole, chosen), -edge, edge, "us", text))
+        return found
+    return read
 
 
 def show_histograms(meter, o, platform):
     """The window of latency-histogram."""
+    root = tkstyle.open_display("latency-histogram", "Latency-histogram")
+    processor = next((line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), "")
+    lines = [f"{processor or 'processor'} ({os.cpu_count()}), kernel {platform.kernel}"] + platform.doubts()
+    window = Histograms(root, "latency-histogram", lines, o.text, [f"{t.thread} thread ({t.period_ns} ns)" for t in meter.figures],
+                        latency_bars(meter, o.show), meter.reset, bool(o.logscale), max(t.bins for t in meter.figures), platform)
+    run(window, o.seconds)
 
-    def refresh(charts):
-        meter.read()
-        for chart, t in zip(charts, meter.figures):
-            if not t.counts:
-                continue
-            low, *counts, high = t.counts
-            edge = t.bins * t.bin_ns / 1e3
-            text = t.line(0)[8:].strip()
-            if o.show:
-                text += f"   below: {low} above: {high}"
-            chart.draw(counts, -edge, edge, "us", text, bool(o.logscale))
 
-    run_window("latency-histogram", platform.banner(), o.text, [f"{t.thread} ({t.period_ns} ns)" for t in meter.figures],
-               refresh, meter.reset, o.seconds)
+class Strip(tk.Canvas):
+    """A moving line. points: how many fit."""
+
+    def __init__(self, parent, style, title, points):
+        super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"], highlightthickness=1,
+                         highlightbackground=style.colours["line"])
+        self.style, self.title, self.points, self.values, self.text = style, title, points, [], ""
+        self.bind("<Configure>", lambda event: self.draw())
+
+    def show(self, values, text):
+        self.values, self.text = list(values), text
+        self.draw()
+
+    def draw(self):
+        self.delete("all")
+        px, colours = self.style.px, self.style.colours
+        width, height, left = self.winfo_width(), self.winfo_height(), px(90)
+        floor, ceiling = height - px(8), px(34)
+        self.create_text(px(8), px(6), anchor="nw", text=f"{self.title}   {self.text}", font="TkDefaultFont", fill=colours["ink"], tags="figures")
+        if not self.values:
+            return
+        top, low = max(self.values), min(0, *self.values)
+        top = max(top, low + 1)
+        for part in range(5):
+            y = floor - part * (floor - ceiling) / 4
+            self.create_line(left, y, width, y, fill=colours["line"])
+            self.create_text(left - px(6), y, anchor="e", text=f"{low + part * (top - low) / 4:.0f} ns", font="TkDefaultFont", fill=colours["faint"])
+        points = [(width - (len(self.values) - 1 - i) * (width - left) / self.points, floor - (floor - ceiling) * (v - low) / (top - low))
+                  for i, v in enumerate(self.values)]
+        if len(points) > 1:
+            self.create_line(*(c for point in points for c in point), fill=colours["chart"], width=px(2), tags="line")
+
+
+def show_strips(trace, o, platform, points):
+    """The window of latency-plot."""
+    root = tkstyle.open_display("latency-plot", "Latency-plot")
+    style = tkstyle.apply(root)
+    root.title("latency-plot")
+    ttk.Label(root, text=platform.banner(), justify="left", padding=style.px(6)).pack(anchor="w")
+    what = "deviation from" if o.relative else "interval;"
+    strips = {name: Strip(root, style, f"{name} thread: {what} {period} ns", points) for name, period in trace.threads}
+    for strip in strips.values():
+        strip.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(2))
+    root.update_idletasks()
+    tkstyle.centre(root, root.winfo_reqwidth(), root.winfo_reqheight(), (style.px(360), style.px(240)))
+
+    def tick():
+        trace.sample()
+        for name, strip in strips.items():
+            strip.show(trace.values[name], f"last {trace.values[name][-1]} ns, worst deviation {trace.worst[name]} ns")
+        if o.points and len(next(iter(trace.values.values()))) >= o.points:
+            root.destroy()
+        else:
+            root.after(o.time, tick)
+    root.after(o.time, tick)
+    root.mainloop()

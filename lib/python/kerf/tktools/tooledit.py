@@ -68,7 +68,8 @@ class Window:
         self.sheet = Sheet(root, style, columns, lambda key, text: key == COMMENT or is_number(key, text), self.changed, self.sort)
         self.sheet.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(4))
         root.update_idletasks()
-        tkstyle.centre(root, self.sheet.winfo_reqwidth() + style.px(30), style.px(460), (style.px(420), style.px(240)))
+        least = self.bar.winfo_reqwidth() + style.px(8)         # with all buttons
+        tkstyle.centre(root, max(self.sheet.winfo_reqwidth() + style.px(30), least), style.px(460), (least, style.px(240)))
         values, _ = tclprefs.read(rc)
         if "geometry" in values:
             try:
@@ -84,7 +85,7 @@ class Window:
         self.poll()
 
     def _make_buttons(self):
-        bar = ttk.Frame(self.root, padding=self.style.px(4))
+        bar = self.bar = ttk.Frame(self.root, padding=self.style.px(4))
         bar.pack(side="bottom", fill="x")
         self.buttons = {}
         for name, action in (("Delete", self.delete), ("AddTool", self.add), ("ReRead", self.reread), ("SaveFile", self.save),
