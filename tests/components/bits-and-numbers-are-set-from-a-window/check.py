@@ -93,7 +93,7 @@ def window(folder: str) -> None:
     release(pulse)
     while hal.get_p("inv.in"):      # ends by itself
         root.update()
-    radios = [w for w in toggle.frame.winfo_children() if isinstance(w, tk.Radiobutton)]
+    radios = [w for w in toggle.frame.winfo_children() if w.winfo_class() == "TRadiobutton"]
     check("modes", [w["text"] for w in radios], ["Pulse", "Toggle", "Hold"])
     radios[2].invoke()
     press(toggle)
