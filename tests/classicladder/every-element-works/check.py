@@ -9,25 +9,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, "../../components")
-from harness import Part, Session  # noqa: E402
+sys.path.insert(0, "../lib")
+from clp import Part, Session, line, rung_part  # noqa: E402
 
 CYCLES = 400
-FREE = "0-0-0/0"
-
-
-def rung(number: int, cells: dict[tuple[int, int], str], last: int, label: str = "") -> str:
-    """A rung part; cells: (x, y) -> text."""
-    lines = [";Rung", "#VER=2.0", f"#LABEL={label}", "#COMMENT=", f"#PREVRUNG={number - 1}",
-             f"#NEXTRUNG={-1 if number == last else number + 1}"]
-    lines += [" , ".join(cells.get((x, y), FREE) for x in range(10)) for y in range(6)]
-    return "_FILE-rung_%d.csv\n%s\n_/FILE-rung_%d.csv\n" % (number, "\n".join(lines), number)
-
-
-def line(first: int, until: int, y: int = 0) -> dict[tuple[int, int], str]:
-    """Connections from column first to before until."""
-    return {(x, y): "9-0-0/0" for x in range(first, until)}
-
 
 def rungs() -> list[dict[tuple[int, int], str]]:
     return [
@@ -80,8 +65,8 @@ def project() -> str:
     text += ("_FILE-sections.csv\n#VER=1.0\n#NAME000=Main\n#NAME001=Sub\n#NAME002=Chart\n"
              f"000,0,-1,0,{last},0\n001,0,3,{last + 1},{last + 1},0\n002,1,-1,0,0,0\n_/FILE-sections.csv\n")
     for number, cells in enumerate(parts):
-        text += rung(number, cells, last)
-    text += rung(last + 1, subroutine, last + 1)
+        text += rung_part(number, cells, -1 if number == last else number + 1)
+    text += rung_part(last + 1, subroutine, -1)
     text += ("_FILE-sequential.csv\n#VER=1.0\nS0,1,0,0,1,1\nS1,0,1,0,1,3\n"
              f"T0,1,-1,-1,-1,-1,-1,-1,-1,-1,-1,0,-1,-1,-1,-1,-1,-1,-1,-1,-1,{none},{none},0,1,2\n"
              f"T1,0,-1,-1,-1,-1,-1,-1,-1,-1,-1,1,-1,-1,-1,-1,-1,-1,-1,-1,-1,{none},{none},0,1,4\n"
