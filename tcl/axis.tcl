@@ -68,7 +68,7 @@ proc relief {condition w} {
     if {![winfo exists $w]} return
     set pressed [uplevel #0 [list expr $condition]]
     $w configure -relief [expr {$pressed ? "sunken" : "flat"}] \
-        -background [expr {$pressed ? $::axis::colour(pressed) : $::axis::colour(face)}]
+        -background [expr {$pressed ? $::axis::colour(chosen) : $::axis::colour(face)}]
 }
 
 # -- tool bar ------------------------------------------------------------------------------
@@ -231,6 +231,20 @@ proc ::axis::build_view_menu {} {
     add $m radiobutton "W_orld mode" -variable teleop_mode -value 1 -accelerator \$ -command set_teleop_mode
 }
 
+# What Kerf adds, behind the documented entries.
+proc ::axis::add_looks_menu {scales} {
+    set m .menu.view
+    $m add separator
+    add $m checkbutton "Dar_k theme" -variable dark_theme -command ::axis::dark_theme
+    add $m checkbutton "Large to_uch targets" -variable large_touch_targets -command ::axis::large_touch_targets
+    menu $m.size -tearoff 0
+    add $m cascade "Si_ze of the interface" -menu $m.size
+    foreach scale $scales {
+        set label [expr {$scale == 0 ? [_ "As the screen needs"] : "[expr {round(100 * $scale)}] %"}]
+        $m.size add radiobutton -label $label -variable interface_scale -value $scale -command ::axis::interface_scale
+    }
+}
+
 # Starts a tool of the integrator; a missing one is told, not fatal.
 proc ::axis::tool_program {name args} {
     foreach dir [list $::axis::tcl_dir/bin $::axis::tcl_dir] {
@@ -286,14 +300,14 @@ proc ::axis::build_manual {f} {
     pack $f.jogf.zerohome -fill x -pady 2
     pack $f.jogf.override -fill x
 
-    frame $f.space1 -height 8
+    frame $f.space1 -height $::axis::gap
     label $f.spindlel -text [_ "Spindle:"] -anchor w
     frame $f.spindlef
     frame $f.spindlef.row1
     frame $f.spindlef.row2
     foreach {w image value} {ccw spindle_ccw -1 stop spindle_stop 0 cw spindle_cw 1} {
         radiobutton $f.spindlef.$w -image [load_image $image] -indicatoron 0 -value $value -variable spindledir \
-            -command spindle -takefocus 0 -selectcolor $::axis::colour(pressed) -padx 4 -pady 4
+            -command spindle -takefocus 0 -selectcolor $::axis::colour(chosen) -padx 4 -pady 4
         pack $f.spindlef.$w -in $f.spindlef.row1 -side left -padx 2
     }
     button $f.spindlef.spindleminus -text - -width 2 -takefocus 0
@@ -306,8 +320,8 @@ proc ::axis::build_manual {f} {
     checkbutton $f.spindlef.brake -variable brake -command brake -anchor w -takefocus 0
     setup_widget_accel $f.spindlef.brake [_ "Brake"]
     pack $f.spindlef.brake -in $f.spindlef.row2 -side left -padx 6
-    pack $f.spindlef.row1 $f.spindlef.row2 -anchor w -pady 2
-    frame $f.space2 -height 8
+    pack $f.spindlef.row1 $f.spindlef.row2 -anchor w -pady 2 -side $::axis::spindle_side
+    frame $f.space2 -height $::axis::gap
     label $f.coolant -text [_ "Coolant:"] -anchor w
     checkbutton $f.mist -variable mist -command mist -anchor w -takefocus 0
     checkbutton $f.flood -variable flood -command flood -anchor w -takefocus 0
@@ -368,7 +382,7 @@ proc ::axis::build_mdi {f} {
 # Override slider: percent, with an entry-like label.
 proc ::axis::build_override {w text variable max command} {
     frame $w
-    label $w.l -text $text -anchor w -width 18
+    label $w.l -text $text -anchor w -width 17
     scale $w.foscale -from 0 -to $max -orient horizontal -showvalue 0 -variable $variable -command $command -takefocus 0
     label $w.foentry -textvariable $variable -width 4 -anchor e
     label $w.m -text %
@@ -380,10 +394,10 @@ proc ::axis::build_override {w text variable max command} {
 # Speed slider: position 0..1, value shown in units/min.
 proc ::axis::build_speed {w text value variable command} {
     frame $w
-    label $w.l0 -text $text -anchor w -width 18
+    label $w.l0 -text $text -anchor w -width 17
     scale $w.s -from 0 -to 1 -resolution 0.005 -orient horizontal -showvalue 0 -variable $variable -command $command -takefocus 0
-    label $w.l -textvariable $value -width 8 -anchor e
-    label $w.l1 -width 8 -anchor w
+    label $w.l -textvariable $value -width 6 -anchor e
+    label $w.l1 -width 7 -anchor w
     pack $w.l0 -side left
     pack $w.l1 $w.l -side right
     pack $w.s -side left -fill x -expand 1
@@ -434,7 +448,7 @@ proc ::axis::build_pane {} {
     grid columnconfigure .pane.top 1 -weight 1
 
     frame .pane.bottom.t
-    text .pane.bottom.t.text -height 9 -wrap none -state disabled -takefocus 0 -yscrollcommand {.pane.bottom.t.sb set} \
+    text .pane.bottom.t.text -height $::axis::code_lines -wrap none -state disabled -takefocus 0 -yscrollcommand {.pane.bottom.t.sb set} \
         -cursor arrow
     scrollbar .pane.bottom.t.sb -command {.pane.bottom.t.text yview} -takefocus 0
     pack .pane.bottom.t.sb -side right -fill y

@@ -17,6 +17,7 @@ from . import dialogs, program, remote
 from .follow import FollowPart
 from .jog import speed
 from .opening import OpeningPart
+from .panels import PanelsPart
 from .pins import PinsPart
 from .prefs import Preferences
 from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
@@ -31,7 +32,7 @@ NO_STATUS = ("A configuration error is preventing LinuxCNC from starting.\n"
              "More information may be available when running from a terminal.")
 
 
-class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
+class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     """One screen."""
 
     def __init__(self, root, ini_path):
@@ -49,11 +50,13 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
         self.jog_invert = self.settings.jog_invert()
         self.loaded_file = self.shown_file = None
         self.is_filtered = self.loading = self.cancel_loading = False
+        self.disk_state = None
         self.joints_shown = None
         self.last_increment = None
         self.maxvel_quiet_until = 0.0
         self.own_values = {}
         self.children = []
+        self.place = ""          # file and line of a subroutine that runs
         self.panel = None
         self.widget_signs = {}
         self.loader = program.Loader(self.settings)
@@ -298,17 +301,6 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
         self.root.tk.call(".pane.top.right", "insert", "end", name, "-text", text)
         return self.root.tk.call(".pane.top.right", "getframe", name)
 
-    def show_panel(self):
-        if self.panel is not None:
-            if self.vars.show_pyvcppanel.get():
-                self.panel.grid()
-            else:
-                self.panel.grid_remove()
-
-    def toggle_panel(self):
-        self.vars.show_pyvcppanel.set(not self.vars.show_pyvcppanel.get())
-        self.show_panel()
-
     def lathe_view(self):
         return "y2" if self.settings.back_tool_lathe else "y"
 
@@ -408,6 +400,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
         self.command.set_block_delete(self.vars.block_delete.get())
         self.command.set_optional_stop(self.vars.optional_stop.get())
         self.make_pins()
+        self.make_panel()
         self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)
         self.logging.start()
         self.activate_ja_widget(self.settings.coordinates[0])
@@ -454,9 +447,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart):
         self.logger.stop()
         self.logging.join(1.0)
         self.loader.close()
-        for child, line in self.children:
-            if "loadusr" not in line and child.poll() is None:
-                child.terminate()
+        self.end_children()
         if getattr(self, "comp", None) is not None:
             self.comp.exit()
 

@@ -229,7 +229,7 @@ def make(app):
 
         def goto_sensible_line(*event):
             line = v.highlight_line.get() if v.highlight_line.get() > 0 else max(v.running_line.get(), 1)
-            app.text.see(f"{line}.0")
+            app.code.see(line)
 
         # -- MDI ---------------------------------------------------------------------------
 

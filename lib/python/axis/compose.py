@@ -266,7 +266,7 @@ class Composer:
             return
         size = round(self.text_px * (1.7 if self.options.dro_large_font else 1.0)) + 2
         step = round(1.25 * size)
-        while step * (len(lines) + 1) > h and size > 8:      # a low window: smaller letters rather than lines that are cut off
+        while step * (len(lines) + 1) > 0.62 * h and size > 10:      # a low window: smaller letters, the program stays visible
             size -= 1
             step = round(1.25 * size)
         width = 0.61 * size * max(map(len, lines))

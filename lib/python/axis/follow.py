@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Updates: the widgets follow the machine's status."""
 
+import os
 import sys
 import time
 import traceback
@@ -114,24 +115,28 @@ class FollowPart:
 
     def follow_line(self):
         s = self.stat
-        line = s.motion_line if s.interp_state != linuxcnc.INTERP_IDLE and s.motion_line > 0 else -1
-        if line == -1 and s.interp_state != linuxcnc.INTERP_IDLE:
-            line = s.current_line or -1
+        line, busy = -1, s.interp_state != linuxcnc.INTERP_IDLE
+        elsewhere = busy and s.task_mode == linuxcnc.MODE_AUTO and bool(s.file) and bool(self.shown_file) and \
+            os.path.realpath(s.file) != os.path.realpath(self.shown_file)
+        if elsewhere:                # a subroutine of another file: the calling line stays marked
+            line = self.vars.running_line.get()
+        elif busy:
+            line = s.motion_line if s.motion_line > 0 else s.current_line or -1
+        self.place = f"{os.path.basename(s.file)}:{s.motion_line}" if elsewhere else ""
         if line != self.vars.running_line.get():
             self.vars.running_line.set(line)
-            self.text.tag_remove("executing", "1.0", "end")
-            if line > 0:
-                self.text.tag_add("executing", f"{line}.0", f"{line}.end")
-                if self.vars.highlight_line.get() <= 0:
-                    self.text.see(f"{line}.0")
+            self.code.mark("executing", line)
+            if line > 0 and self.vars.highlight_line.get() <= 0:
+                self.code.see(line)
 
     def show_readout(self):
         v, s = self.vars, self.stat
         view = SimpleNamespace(relative=bool(v.coord_type.get()), commanded=bool(v.display_type.get()), metric=bool(v.metric.get()),
                                joints=bool(self.joints_shown), offsets=bool(v.show_offsets.get()), speed=bool(v.show_machine_speed.get()),
                                distance_to_go=bool(v.show_distance_to_go.get()), extra_joints=s.num_extrajoints)
-        self.vars.put("position", self.translate("Position: Joint") if view.joints else
-                      f"Position: {'Relative' if view.relative else 'Machine'} {'Commanded' if view.commanded else 'Actual'}")
+        text = self.translate("Position: Joint") if view.joints else \
+            self.translate(f"Position: {'Relative' if view.relative else 'Machine'} {'Commanded' if view.commanded else 'Actual'}")
+        self.vars.put("position", f"{text}    {self.place}" if self.place else text)
         long_lines = self.readout.lines(s, view)
         view.offsets = False
         self.preview.stat = s
@@ -163,8 +168,9 @@ class FollowPart:
         return -max(10, min(int(width / (0.62 * longest)), int(height / (1.25 * max(1, len(lines)))), 96))
 
     def poll_errors(self):
-        """Shows new messages now and every ERROR_POLL_MS."""
+        """Shows new messages now and every ERROR_POLL_MS; looks whether the file changed."""
         self.show_errors()
+        self.look_at_file()
         self.root.after(ERROR_POLL_MS, self.poll_errors)
 
     def show_errors(self):

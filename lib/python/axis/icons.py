@@ -169,9 +169,18 @@ class Icons:
         self.root, self.size, self.ink = root, size, DARK_INK if dark else INK
         self.images = {}
 
+    def png(self, name):
+        pen = Pen(self.size, self.ink)
+        DRAWINGS[name](pen)
+        return pen.png()
+
     def get(self, name):
         if name not in self.images:
-            pen = Pen(self.size, self.ink)
-            DRAWINGS[name](pen)
-            self.images[name] = tk.PhotoImage(master=self.root, data=pen.png())
+            self.images[name] = tk.PhotoImage(master=self.root, data=self.png(name))
         return self.images[name]
+
+    def restyle(self, size, dark):
+        """All images at another size or for another ground; widgets show them at once."""
+        self.size, self.ink = size, DARK_INK if dark else INK
+        for name, image in self.images.items():
+            image.configure(data=self.png(name))

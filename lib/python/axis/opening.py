@@ -5,12 +5,15 @@ import os
 import time
 
 import linuxcnc
+from kerf import clock
 from kerf.tree import Tree
 
 from . import dialogs, program
 
 
 LONGEST_PREVIEW_S = 60.0     # a program without an end is not read for ever, also without PREVIEW_TIMEOUT
+
+LONGEST_RESTORE_S = 120.0
 
 
 class OpeningPart:
@@ -53,17 +56,18 @@ class OpeningPart:
             self.root.tk.call("set_mode_from_tab")
 
     def load_shown(self):
+        """Task, text and preview take the same program; a change on disk meanwhile is told."""
         c = self.command
+        self.disk_state = self.state_on_disk()
         if self.manual_ok():
             self.ensure_mode(linuxcnc.MODE_MANUAL)
         c.task_plan_synch()
         c.wait_complete()
         c.program_open(self.shown_file)
         c.wait_complete()
-        lines = program.text_lines(self.shown_file)
-        self.show_text(lines)
+        self.code.load(self.loader.kept_text(self.shown_file))
         self.stat.poll()
-        total = max(1, len(lines))
+        total = max(1, self.code.total)
         timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
         end = time.monotonic() + (timeout if timeout > 0 else LONGEST_PREVIEW_S)
 
@@ -90,6 +94,25 @@ class OpeningPart:
                         self.translate("OK"), extra=fault["report"] if fault else None)
         self.show_title()
 
+    def state_on_disk(self):
+        """What tells a change of the opened file, or None when it is gone."""
+        try:
+            found = os.stat(self.loaded_file)
+        except (OSError, TypeError):
+            return None
+        return found.st_mtime_ns, found.st_size, found.st_ino
+
+    def look_at_file(self):
+        """Tells once when the file on disk is no longer the program that is loaded."""
+        if self.loaded_file is None or self.loading:
+            return
+        now = self.state_on_disk()
+        if now != self.disk_state:
+            self.disk_state = now
+            what = self.translate("%s was changed on disk. The program as it was opened stays loaded; reload to take the new one.") if now else \
+                self.translate("%s is gone from the disk. The program as it was opened stays loaded.")
+            self.notifications.add("info", what % os.path.basename(self.loaded_file))
+
     def reload_file(self, refilter=True):
         """Opens the file again; highlighted line kept. refilter False: only the preview follows."""
         if not self.loaded_file or self.running() or self.loading:
@@ -112,23 +135,8 @@ class OpeningPart:
             self.open_file_guts(source, filtered=True, addrecent=False)
         self.set_highlight_line(line)
 
-    def show_text(self, lines):
-        t = self.text
-        t.configure(state="normal")
-        t.delete("1.0", "end")
-        chunks = []
-        for n, line in enumerate(lines, 1):
-            chunks += ["%6d: " % n, "lineno", line + "\n", ""]
-            if len(chunks) >= 4000:
-                t.insert("end", *chunks)
-                chunks = []
-        if chunks:
-            t.insert("end", *chunks)
-        t.configure(state="disabled")
-        t.yview_moveto(0)
-
     def line_text(self, line):
-        return self.text.get(f"{line}.8", f"{line}.end") if line > 0 else ""
+        return self.code.line_text(line)
 
     def show_title(self):
         version = Tree.find().version()
@@ -138,10 +146,9 @@ class OpeningPart:
 
     def set_highlight_line(self, line):
         line = int(line) if line and int(line) > 0 else -1
-        self.text.tag_remove("sel", "1.0", "end")
+        self.code.mark("sel", line)
         if line > 0:
-            self.text.tag_add("sel", f"{line}.0", f"{line}.end")
-            self.text.see(f"{line}.0")
+            self.code.see(line)
         if self.vars.highlight_line.get() != line:
             self.vars.highlight_line.set(line)
             self.preview.centre_on_line(line)
@@ -193,8 +200,50 @@ class OpeningPart:
             self.reload_file()
 
     def run_from(self, line):
-        if self.loading or not self.manual_ok() or self.running() or not self.accept_limits():
+        if self.loading or not self.manual_ok() or self.running() or not self.loaded_file or not self.accept_limits():
             return
-        if self.ensure_mode(linuxcnc.MODE_AUTO):
+        if line > 0:
+            self.start_at(line)
+        elif self.ensure_mode(linuxcnc.MODE_AUTO):
             self.set_highlight_line(-1)
-            self.command.auto(linuxcnc.AUTO_RUN, line)
+            self.command.auto(linuxcnc.AUTO_RUN, 0)
+
+    def start_at(self, line):
+        """A start in the middle: task tells what it would restore, the operator decides."""
+        c, s, _ = self.command, self.stat, self.translate
+        if not self.ensure_mode(linuxcnc.MODE_AUTO):
+            return
+        c.restore(line)
+        c.wait_complete()
+        end = clock.now() + LONGEST_RESTORE_S
+        self.loading, self.cancel_loading = True, False      # Escape ends the waiting, nothing else starts
+        try:
+            while True:
+                s.poll()
+                if s.restore_line > 0 or s.task_mode != linuxcnc.MODE_AUTO or s.task_state != linuxcnc.STATE_ON:
+                    break
+                if self.cancel_loading or s.state == linuxcnc.RCS_ERROR or clock.now() > end:
+                    break
+                self.root.update()
+                clock.sleep(0.02)
+        finally:
+            self.loading = False
+        if s.restore_line <= 0:
+            if self.cancel_loading:
+                c.abort()
+            return                   # task told the reason
+        answer = dialogs.ask(self.root, _("Run from line %d") % s.restore_line, _("Before the program goes on at line %d, this is done:") % s.restore_line,
+                             "warning", 2, _("Restore and run"), _("Run without"), _("Cancel"), extra=s.restore_text, escape=2)
+        restored = s.restore_line
+        s.poll()
+        if s.task_state != linuxcnc.STATE_ON or self.running():
+            return
+        if answer == 0 and s.restore_line == restored:
+            self.set_highlight_line(-1)
+            c.restore_confirm(restored)
+            return
+        c.abort()                    # forgets what was shown
+        c.wait_complete()
+        if answer == 1 and self.ensure_mode(linuxcnc.MODE_AUTO):
+            self.set_highlight_line(-1)
+            c.auto(linuxcnc.AUTO_RUN, line)

@@ -77,6 +77,12 @@ class Loader:
             shutil.copyfile(path, target)
         return target
 
+    def kept_text(self, path):
+        """A copy that the text is shown from: an editor may change the file meanwhile."""
+        target = os.path.join(self.folder, "text.ngc")
+        shutil.copyfile(path, target)
+        return target
+
     # -- preview ---------------------------------------------------------------------------
 
     def init_codes(self, stat):
@@ -118,12 +124,6 @@ class Loader:
         """True for a file that [DISPLAY]GRAPHICAL_MAX_FILE_SIZE (MB) lets be shown as a box only."""
         most = self.s.real(("DISPLAY", "GRAPHICAL_MAX_FILE_SIZE"), default=0.0)
         return most > 0 and os.path.getsize(path) > most * 1e6
-
-
-def text_lines(path):
-    """Lines of the file as they are shown: tabs expanded, no line ends."""
-    with open(path, errors="replace", newline="") as f:
-        return [line.rstrip("\r\n").replace("\r", "").expandtabs() for line in f.read().split("\n")]
 
 
 def limit_warnings(program, settings, stat):

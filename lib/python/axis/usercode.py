@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The user's code (~/.axisrc), embedded tabs, and files that are loaded behind the screen."""
+"""The user's code: ~/.axisrc or [DISPLAY]USER_COMMAND_FILE."""
 
 import os
-import subprocess
 import sys
 import tkinter as tk
 import traceback
@@ -10,14 +9,11 @@ from types import SimpleNamespace
 
 import hal
 import linuxcnc
-from kerf import clock
 
 from . import dialogs
 from . import help as help_texts
 from .settings import LETTERS
 from .touchoff import Checker
-
-CHILD_POLL_MS = 100
 
 
 class UserPart:
@@ -85,55 +81,3 @@ class UserPart:
         if isinstance(path, (list, tuple)) and "-ext" in path:
             extra = path[path.index("-ext") + 1]
         return dialogs.ask(self.root, title, text, icon, int(default), *buttons, extra=extra)
-
-    def start_tabs(self):
-        """Embedded tabs; returns False for an invalid configuration."""
-        names = self.ini.findall("DISPLAY", "EMBED_TAB_NAME") or []
-        lines = self.ini.findall("DISPLAY", "EMBED_TAB_COMMAND") or []
-        if len(names) != len(lines):
-            print("Invalid tab configuration")
-            return
-        os.environ["AXIS_FORWARD_EVENTS_TO"] = str(self.root.winfo_id())
-        for i, (name, line) in enumerate(zip(names, lines)):
-            frame = self.add_tab(f"user_{i}", name)
-            container = f"{frame}.container"
-            self.root.tk.call("frame", container, "-container", 1)
-            self.root.tk.call("pack", container, "-fill", "both", "-expand", 1)
-            self.root.update_idletasks()
-            words = line.replace("{XID}", str(self.root.tk.call("winfo", "id", container))).split()
-            try:
-                self.children.append((subprocess.Popen(words), line))
-            except OSError as e:
-                print(f"axis: EMBED_TAB_COMMAND = {line}: {e.strerror}")
-
-    def wait_for_children(self, then):
-        """Calls `then` when every child that loads a component is done; a failure ends AXIS."""
-        for child, line in self.children:
-            if line.startswith("halcmd loadusr") and child.poll() is None:
-                self.root.after(CHILD_POLL_MS, lambda: self.wait_for_children(then))
-                return
-        for child, line in self.children:
-            if line.startswith("halcmd loadusr") and child.returncode:
-                print(f"axis: '{line}' ended with {child.returncode}")
-                self.exit_status = child.returncode
-                self.root.destroy()
-                return
-        then()
-
-    def postgui(self):
-        """[HAL]POSTGUI_HALFILE and POSTGUI_HALCMD; a failure ends AXIS with its status."""
-        ini = self.settings.ini_path
-        lines = []
-        for entry in self.ini.findall("HAL", "POSTGUI_HALFILE") or []:
-            name, *args = entry.split()
-            name = os.path.expanduser(name)
-            lines.append(["haltcl", "-i", ini, name, *args] if name.endswith(".tcl") else ["halcmd", "-i", ini, "-f", name])
-        lines += [["halcmd", *line.split()] for line in self.ini.findall("HAL", "POSTGUI_HALCMD") or []]
-        for words in lines:
-            status = clock.run(words).returncode
-            if status:
-                print(f"axis: '{' '.join(words)}' ended with {status}", file=sys.stderr)
-                self.exit_status = status
-                self.root.destroy()
-                return
-        self.show()

@@ -11,8 +11,8 @@ INTEGERS = ("interp_pause", "exec_state", "task_state", "task_paused", "interp_s
             "block_delete", "rotate_mode", "on_any_limit", "queued_mdi_commands", "max_queued_mdi_commands")
 FLAGS = ("tto_g11", "mist", "flood", "brake", "show_program", "program_alpha", "show_live_plot", "show_tool", "show_extents",
          "show_offsets", "show_machine_limits", "show_machine_speed", "show_distance_to_go", "dro_large_font",
-         "show_pyvcppanel", "show_rapids")
-REALS = ("grid_size", "jog_speed", "jog_aspeed", "max_speed", "max_aspeed", "maxvel_speed", "max_maxvel", "jog_slider_val",
+         "show_pyvcppanel", "show_rapids", "dark_theme", "large_touch_targets")
+REALS = ("grid_size", "jog_speed", "jog_aspeed", "max_speed", "max_aspeed", "maxvel_speed", "max_maxvel", "jog_slider_val", "interface_scale",
          "ajog_slider_val", "maxvel_slider_val")
 
 

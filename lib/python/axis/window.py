@@ -9,20 +9,17 @@ import linuxcnc
 from kerf.tree import Tree
 
 from . import commands as command_table
+from .codeview import CodeView
 from .compose import PLOT
 from .dro import Readout
-from .icons import Icons
 from .jog import Jogger, position, speed
 from .keys import Keys
+from .looks import SCALES, LooksPart
 from .notify import Notifications
 from .preview import Preview
 from .settings import LETTERS, MM_PER_INCH, parse_increment
 from .variables import Options
 
-LIGHT = {"face": "#eceae6", "ink": "#20242b", "line": "#b9b6b0", "pressed": "#b9d3ee", "field": "#ffffff", "select": "#2f6db5",
-         "dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#7a808a"}
-DARK = {"face": "#2d3138", "ink": "#e4e6ea", "line": "#565c66", "pressed": "#3f5f86", "field": "#1f2227", "select": "#3f7fd0",
-        "dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#8a919c"}
 CONSTANTS = {name: getattr(linuxcnc, name) for name in (
     "STATE_ESTOP", "STATE_ESTOP_RESET", "STATE_OFF", "STATE_ON", "INTERP_IDLE", "INTERP_READING", "INTERP_PAUSED",
     "INTERP_WAITING", "TRAJ_MODE_FREE", "KINEMATICS_IDENTITY")} | {
@@ -53,13 +50,13 @@ def widget_names():
     return names
 
 
-class WindowPart:
+class WindowPart(LooksPart):
     """Part of App: builds the window."""
 
     def build(self):
         root, s = self.root, self.settings
         tree = Tree.find()
-        self.look()
+        self.first_look()
         tcl = root.tk
         for name, value in CONSTANTS.items():
             tcl.setvar(name, value)
@@ -70,7 +67,10 @@ class WindowPart:
         tcl.createcommand("::axis::notify_error", lambda text: self.notifications.add("error", text))
         for name, function in {"jog_slider": lambda x: self.slider("jog", x), "ajog_slider": lambda x: self.slider("ajog", x),
                                "maxvel_slider": lambda x: self.slider("maxvel", x), "raised_manual": self.tab_raised,
-                               "raised_mdi": self.tab_raised, "increment_chosen": self.increment_chosen}.items():
+                               "raised_mdi": self.tab_raised, "increment_chosen": self.increment_chosen,
+                               "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
+                               "large_touch_targets": lambda: self.set_touch(self.vars.large_touch_targets.get()),
+                               "interface_scale": lambda: self.set_scale(self.vars.interface_scale.get())}.items():
             tcl.createcommand(f"::axis::{name}", self.guarded(function))
         tcl.createcommand("val2vel", lambda value, top=1.0: "%g" % speed(float(value), float(top)))
         tcl.eval(f"source {{{tree.tcl}/axis.tcl}}")
@@ -79,13 +79,14 @@ class WindowPart:
         for name, path in widget_names().items():
             setattr(self.widgets, name, root.nametowidget(path) if path in root.children or self.known(path) else self.wrap(path))
         self.text = self.widgets.text
+        self.code = CodeView(self.text, self.wrap(".pane.bottom.t.sb"))
         self.notifications = Notifications(root, self.errors_shown)
         self.jogger = Jogger(self)
         self.restore()
         self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *PLOT, s.geometry, s.foam)
         self.options = Options(self.vars, cone_size=self.cone_size(), cone_scaling=not s.flag("DISPLAY", "DISABLE_CONE_SCALING"),
                                min_tool_diameter=s.real(("DISPLAY", "GCODE_VIEW_TOOL_MIN_DIA"), default=0.0))
-        self.preview = Preview(self.widgets.preview_frame, s, self.options, self.logger)
+        self.preview = Preview(self.widgets.preview_frame, s, self.options, self.logger, self.letters_px())
         self.preview.pack(fill="both", expand=True)
         linuxcnc.gui_respect_offsets(s.coordinates, int("!" in s.geometry))
         reason = self.preview.show_with(self.probe.result())
@@ -117,7 +118,7 @@ class WindowPart:
     def wrap(self, path):
         """A Python object for a widget that Tcl made."""
         kinds = {"Text": tk.Text, "Button": tk.Button, "Radiobutton": tk.Radiobutton, "Checkbutton": tk.Checkbutton, "Entry": tk.Entry,
-                 "Listbox": tk.Listbox, "Scale": tk.Scale, "Menu": tk.Menu, "Label": tk.Label, "Toplevel": tk.Toplevel,
+                 "Listbox": tk.Listbox, "Scrollbar": tk.Scrollbar, "Scale": tk.Scale, "Menu": tk.Menu, "Label": tk.Label, "Toplevel": tk.Toplevel,
                  "TCombobox": tkinter.ttk.Combobox}
         kind = kinds.get(self.root.tk.eval(f"winfo class {path}"), tk.Frame)
         widget = kind.__new__(kind)
@@ -139,42 +140,6 @@ class WindowPart:
             self.root.children.setdefault(name, widget)
         return widget
 
-    def look(self):
-        """Fonts and colours for this screen; sizes follow its resolution."""
-        self.root.tk.eval("namespace eval ::axis {}")
-        root = self.root
-        height = root.winfo_screenheight()
-        size = 9 if height < 700 else 10 if height < 1000 else 11 if height < 1500 else 16
-        dark = self.prefs.getpref("dark_theme", False)
-        colours = DARK if dark else LIGHT
-        for name, value in colours.items():
-            root.tk.setvar(f"::axis::colour({name})", value)
-        for name in ("TkDefaultFont", "TkTextFont", "TkMenuFont", "TkHeadingFont"):
-            root.tk.call("font", "configure", name, "-size", size, "-family", "DejaVu Sans")
-        root.tk.call("font", "configure", "TkFixedFont", "-size", size, "-family", "DejaVu Sans Mono")
-        option = root.option_add
-        for pattern, value in (("*Font", "TkDefaultFont"), ("*Text.Font", "TkFixedFont"), ("*Listbox.Font", "TkFixedFont"),
-                               ("*background", colours["face"]), ("*foreground", colours["ink"]), ("*highlightThickness", 0),
-                               ("*activeBackground", colours["pressed"]), ("*activeForeground", colours["ink"]),
-                               ("*disabledForeground", "#9a9a96"), ("*Entry.background", colours["field"]),
-                               ("*Text.background", colours["field"]), ("*Listbox.background", colours["field"]),
-                               ("*Entry.highlightThickness", 1), ("*selectBackground", colours["select"]),
-                               ("*selectForeground", "#ffffff"), ("*troughColor", colours["line"]), ("*Button.relief", "raised"),
-                               ("*Button.borderWidth", 1), ("*Menu.borderWidth", 1), ("*Scrollbar.borderWidth", 1),
-                               ("*Scale.borderWidth", 1), ("*Scale.width", max(12, size + 4)),
-                               ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),
-                               ("*Menu.selectColor", colours["ink"]), ("*readonlyBackground", colours["field"])):
-            option(pattern, value, "startupFile")
-        root.configure(background=colours["face"])
-        style = tkinter.ttk.Style(root)
-        style.theme_use("clam")
-        style.configure(".", background=colours["face"], foreground=colours["ink"], fieldbackground=colours["field"])
-        style.map("TCombobox", fieldbackground=[("readonly", colours["field"])])
-        self.icons = Icons(root, max(22, 2 * size + 4), dark)
-        width, height = min(1280, root.winfo_screenwidth()), min(860, height - 40)
-        root.geometry(f"{width}x{height}")
-        root.minsize(760, 520)
-
     def restore(self):
         """Variables from preferences, settings and the present status."""
         v, s, p = self.vars, self.settings, self.prefs
@@ -186,6 +151,9 @@ class WindowPart:
         if self.stat.num_extrajoints:
             v.show_offsets.set(False)
         v.grid_size.set(p.getpref("grid_size", 0.0, float))
+        for name in ("dark_theme", "large_touch_targets"):
+            getattr(v, name).set(p.getpref(name, False))
+        v.interface_scale.set(p.getpref("interface_scale", 0.0, float))
         v.block_delete.set(p.getpref("block_delete", True))
         v.optional_stop.set(p.getpref("optional_stop", True))
         v.emcini.set(s.ini_path)
@@ -240,6 +208,7 @@ class WindowPart:
             tcl.call(".menu.view", "delete", last - 2, last)
         if not s.find("DISPLAY", "PYVCP"):
             tcl.call(".menu.view", "delete", tcl.call("::axis::menu_entry", ".menu.view", self.translate("Show P_yVCP panel")))
+        tcl.call("::axis::add_looks_menu", SCALES)
         home = "Home All" if s.all_sequences() else \
             "Home Axis" if self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY else "Home Joint"
         tcl.call("setup_widget_accel", f"{manual}.jogf.zerohome.home", self.translate(home))
@@ -291,16 +260,13 @@ class WindowPart:
         tk.Button(about, text=self.translate("OK"), width=10, command=about.withdraw).pack(pady=8)
         for column, rows in enumerate((help1, help2)):
             for row, (key, text) in enumerate(rows):
-                tk.Label(keys, text=key, anchor="e", font=("TkDefaultFont", -13, "bold")).grid(row=row, column=2 * column, sticky="e", padx=(16, 6))
+                tk.Label(keys, text=key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(16, 6))
                 tk.Label(keys, text=text, anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 16))
 
     def bind_text(self):
         t = self.text
-        t.tag_configure("lineno", foreground=self.root.tk.getvar("::axis::colour(number)"))
-        t.tag_configure("executing", background=self.root.tk.getvar("::axis::colour(running)"), foreground="#ffffff")
-        t.tag_configure("sel", background=self.root.tk.getvar("::axis::colour(select)"), foreground="#ffffff")
-        t.tag_configure("ignored", foreground="#808080")
-        t.bind("<Button-1>", lambda e: self.set_highlight_line(int(t.index(f"@{e.x},{e.y}").split(".")[0])) or "break")
+        self.text_colours()
+        t.bind("<Button-1>", lambda e: self.set_highlight_line(self.code.line_at(e.x, e.y)) or "break")
         t.bind("<Double-Button-1>", lambda e: self.set_highlight_line(-1) or "break")
         t.bind("<B1-Motion>", lambda e: "break")
         t.bind("<Button-4>", lambda e: t.yview_scroll(-2, "units") or "break")

@@ -5,7 +5,8 @@
     style = tkstyle.apply(root)         # once, before the first widget
     style.colours["value"], style.px(8)
 
-Environment: KERF_THEME=light|dark (else what AXIS remembers), KERF_SCALE=1 to 3 (else from the screen).
+Environment: KERF_THEME=light|dark (else what AXIS remembers), KERF_SCALE=1 to 3 (else what AXIS remembers, else from
+the screen).
 """
 
 import configparser
@@ -41,24 +42,29 @@ class Style:
         return max(1, round(pixels * self.scale))
 
 
-def wants_dark():
-    theme = os.environ.get("KERF_THEME", "")
-    if theme:
-        return theme == "dark"
+def remembered(name, kind, default):
+    """What AXIS keeps in ~/.axis_preferences; kind: "getboolean" or "getfloat"."""
     values = configparser.RawConfigParser()
     try:
         values.read(Path.home() / ".axis_preferences")
-        return values.getboolean("DEFAULT", "dark_theme", fallback=False)
+        return getattr(values, kind)("DEFAULT", name, fallback=default)
     except (configparser.Error, ValueError, OSError, RuntimeError):
-        return False
+        return default
+
+
+def wants_dark():
+    theme = os.environ.get("KERF_THEME", "")
+    return theme == "dark" if theme else remembered("dark_theme", "getboolean", False)
 
 
 def screen_scale(root):
     """1 on a usual screen; more where pixels are small, by its resolution or its size in pixels."""
     try:
-        return min(max(float(os.environ["KERF_SCALE"]), 1.0), MAX_SCALE)
-    except (KeyError, ValueError):
-        pass
+        given = float(os.environ.get("KERF_SCALE") or remembered("interface_scale", "getfloat", 0.0))
+    except ValueError:
+        given = 0.0
+    if given > 0:
+        return min(max(given, 1.0), MAX_SCALE)
     by_density = root.winfo_fpixels("1i") / 96
     by_height = root.winfo_screenheight() / 1080 if root.winfo_screenheight() > 1200 else 1.0
     return min(max(by_density, by_height, 1.0), MAX_SCALE)
