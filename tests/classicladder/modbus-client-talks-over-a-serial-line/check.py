@@ -65,18 +65,18 @@ def answer(frame: bytes) -> bytes:
 
 class Slave:
     def __init__(self, fd: int):
-        self.fd, self.mode, self.log = fd, "right", []
+        self.fd, self.mode, self.log, self.begun = fd, "right", [], b""
 
     def serve(self, until, what: str) -> None:
         end = time.monotonic() + DEADLINE_S
-        frame = b""
+        frame = self.begun
         while not until():
             if time.monotonic() > end:
                 print(f"{what}: does not come; seen {[f.hex() for f in self.log[-5:]]}")
                 sys.exit(1)
             if not select.select([self.fd], [], [], 0.02)[0]:
                 continue
-            frame += os.read(self.fd, max(length(frame) - len(frame), 1))
+            frame = self.begun = frame + os.read(self.fd, max(length(frame) - len(frame), 1))
             if len(frame) < length(frame):
                 continue
             if crc(frame[:-2]) != frame[-2:]:
@@ -87,7 +87,7 @@ class Slave:
                 reply = frame[:1] + bytes([frame[1] | 0x80, 2])
             if self.mode != "silent":
                 os.write(self.fd, reply + (b"\0\0" if self.mode == "garbled" else crc(reply)))
-            frame = b""
+            frame = self.begun = b""
 
 
 def hal(*words: str) -> str:
