@@ -15,6 +15,7 @@
 
 #define STOP_CYCLES 12      /* jerk T^3 of these: rounding of a stop to whole cycles */
 #define STOP_PLACES 3       /* looked at on the way to a stop */
+#define EDGE 2.0            /* of the way to a stop: must be within reach, too */
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
 
 void axis_init(struct motion *m)
@@ -144,7 +145,7 @@ static void teleop_axis_step(struct motion *m, int n, const struct teleop_scale 
 /* How far (sum over joints) a set of joint positions lies outside the limits of homed joints.
  * A stop with limited jerk is known to some cycles of jerk: where the axis' own limits are those
  * of the joint they see to the rest, elsewhere that much is kept free. */
-static double outside(const struct motion *m, const double *q)
+double joints_outside(const struct motion *m, const double *q)
 {
     double T = m->traj_period, sum = 0.0, cycles = m->kin_type == KINEMATICS_IDENTITY ? STOP_CYCLES : -STOP_CYCLES;
     for (int j = 0; j < kin_joints(m); j++) {
@@ -159,29 +160,38 @@ static double outside(const struct motion *m, const double *q)
     return sum;
 }
 
-/* 1 when the axes, stopped from now on (with other parts of their limits, if any), come to rest
- * at a place the joints can be at, over places they can be at. */
+/* Where the axes are after that part of the way to a stop (with other parts of their limits, if any). */
+static void on_way_to_stop(const struct motion *m, const struct teleop_scale *scale, double part, EmcPose *way)
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        struct axis a = m->axis[n];
+        if (scale)
+            teleop_limits(&a, scale);
+        const simple_tp_t *p = &a.teleop_tp, *e = &a.ext_offset_tp;
+        double stop = simple_tp_stop_distance(p, m->traj_period) + simple_tp_stop_distance(e, m->traj_period);
+        *emcPoseAxis(way, n) = p->curr_pos + e->curr_pos + stop * part;
+    }
+}
+
+/* 1 when the axes, stopped from now on, come to rest at a place the joints can be at, over places
+ * they can be at, and not so near the edge of what can be reached that they could not brake there. */
 static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
 {
     double q[EMCMOT_MAX_JOINTS], now[EMCMOT_MAX_JOINTS];
-    EmcPose way;
+    EmcPose way = m->status->carte_pos_cmd;
     KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
         q[j] = now[j] = m->joint[j].coarse_pos;
-    double already = outside(m, now);
+    double already = joints_outside(m, now);
     for (int i = 1; i <= STOP_PLACES; i++) {
-        for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-            struct axis a = m->axis[n];
-            if (scale)
-                teleop_limits(&a, scale);
-            const simple_tp_t *p = &a.teleop_tp, *e = &a.ext_offset_tp;
-            double stop = simple_tp_stop_distance(p, m->traj_period) + simple_tp_stop_distance(e, m->traj_period);
-            *emcPoseAxis(&way, n) = p->curr_pos + e->curr_pos + stop * i / STOP_PLACES;
-        }
-        if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || outside(m, q) > already + TELEOP_EPSILON)
+        on_way_to_stop(m, scale, (double)i / STOP_PLACES, &way);
+        if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || joints_outside(m, q) > already + TELEOP_EPSILON)
             return 0;
     }
-    return 1;
+    if (m->kin_type == KINEMATICS_IDENTITY)
+        return 1;
+    on_way_to_stop(m, scale, EDGE, &way);
+    return kinematicsInverse(&way, q, &m->iflags, &fflags) == 0;
 }
 
 /* 1 when the acceleration of a planner ends in time: it gets no faster than its limit, and a brake
@@ -235,7 +245,11 @@ void axis_teleop_step(struct motion *m, EmcPose *pose)
 {
     struct teleop_scale scale;
     int jogging = 0, keep;
+    double asked[EMCMOT_MAX_AXIS];
     m->eoffset_limited = 0;
+    eoffsets_asked(m, asked);
+    if (m->offsets_wait)
+        eoffsets_hold(m);
     teleop_scale(m, &scale);
     keep = !parts_can_change(m, &scale);
     memcpy(m->axis_was, m->axis, sizeof(m->axis));
@@ -245,7 +259,10 @@ void axis_teleop_step(struct motion *m, EmcPose *pose)
     if (jogging && !stop_is_reachable(m, NULL)) {
         memcpy(m->axis, m->axis_was, sizeof(m->axis));
         for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
-            m->axis[n].teleop_tp.enable = m->axis[n].ext_offset_tp.enable = 0;
+            m->axis[n].teleop_tp.enable = 0;
+        eoffsets_hold(m);
+        for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+            asked[n] = NAN; /* no second try at the edge of what can be reached */
         teleop_step(m, &scale, keep);
     }
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
@@ -256,5 +273,6 @@ void axis_teleop_step(struct motion *m, EmcPose *pose)
         }
         *emcPoseAxis(pose, n) = a->teleop_tp.curr_pos + a->ext_offset_tp.curr_pos;
     }
+    eoffsets_release(m, asked);
     hal_set_bool(m->pins->eoffset_limited, m->eoffset_limited);
 }

@@ -898,7 +898,7 @@ static void cmd_set_joint_backlash(M *m, C *c)
 {
     if (!joint_ok(m, c->joint))
         return;
-    m->joint[c->joint].backlash = c->backlash;
+    comp_set_backlash(&m->joint[c->joint], c->backlash);
     config_publish(m);
 }
 

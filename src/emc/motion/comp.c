@@ -3,14 +3,21 @@
  * comp.c - backlash and screw error compensation.
  *
  * In:     pos_cmd, vel_cmd of each joint; tables or BACKLASH
- * Out:    backlash_corr (wanted), backlash_filt (ramped), backlash_vel
- * Thread: servo; the table is searched from the entry of the cycle before
- * Method: trims linear between points; the wanted value is approached with half
- *         of the joint's speed and acceleration (motion.md 12).
+ * Out:    backlash_corr (wanted), backlash_filt (what is added to the command), backlash_vel
+ * Thread: servo; the table is searched in at most 9 steps
+ * Method: trims linear between points (motion.md 12); the wanted value is approached by a
+ *         planner of its own. A joint with compensation gives it a share of its limits and
+ *         plans its motion with the rest (joint_motion_limits()), so that both together stay
+ *         within them: compensation neither steps nor stops the path.
  */
 #include <float.h>
 #include <math.h>
 #include "motion_priv.h"
+
+#define SHARE 0.1        /* of a joint's acceleration and jerk for compensation, where there is any */
+#define MOST_VEL 0.5     /* of its velocity: only a table steeper than that would need more */
+#define SLOPE_MARGIN 1.1 /* for catching up with a table's slope at full speed */
+#define STILL 1e-7       /* units/s: speeds below are rounding of kinematics, no direction */
 
 /* Entry 0 and the last one are sentinels at -DBL_MAX and DBL_MAX. */
 void comp_init(emcmot_joint_t *joint)
@@ -19,6 +26,8 @@ void comp_init(emcmot_joint_t *joint)
     emcmot_comp_entry_t low = {-DBL_MAX, 0, 0, 0, 0}, high = {DBL_MAX, 0, 0, 0, 0};
     c->entries = 0;
     c->entry = NULL;
+    c->swing = c->slope = 0.0;
+    c->shared = 0;
     c->array[0] = low;
     c->array[1] = high;
 }
@@ -45,8 +54,50 @@ int comp_add(emcmot_joint_t *joint, double nominal, double forward, double rever
         before->rev_slope = (float)((new->rev_trim - before->rev_trim) / length);
     }
     c->entries++;
+    c->swing = fmax(c->swing, fabs(forward) + fabs(reverse));
+    c->slope = fmax(c->slope, fmax(fabs(before->fwd_slope), fabs(before->rev_slope)));
     return 0;
 }
+
+/* ---- shares of the limits ---- */
+
+void comp_set_backlash(emcmot_joint_t *joint, double backlash)
+{
+    joint->backlash = backlash;
+    joint->comp.swing = fmax(joint->comp.swing, fabs(backlash)); /* the way back to less is as long */
+}
+
+static struct joint_limits comp_limits(const emcmot_joint_t *jt)
+{
+    struct joint_limits l = {0.0, SHARE * jt->acc_limit, SHARE * jt->jerk_limit};
+    /* a way s from rest to rest never gets faster than sqrt(s a) */
+    l.vel = fmin(MOST_VEL * jt->vel_limit, sqrt(jt->comp.swing * l.acc) + SLOPE_MARGIN * jt->comp.slope * jt->vel_limit);
+    return l;
+}
+
+struct joint_limits joint_motion_limits(const emcmot_joint_t *jt)
+{
+    struct joint_limits l = {jt->vel_limit, jt->acc_limit, jt->jerk_limit};
+    if (!jt->comp.shared)
+        return l;
+    struct joint_limits c = comp_limits(jt);
+    l.vel -= c.vel;
+    l.acc -= c.acc;
+    l.jerk -= c.jerk;
+    return l;
+}
+
+/* A share is taken while nothing moves, and kept until there is nothing left to compensate. */
+static void share_limits(const struct motion *m, emcmot_joint_t *jt)
+{
+    int wanted = jt->comp.entries > 0 || jt->backlash != 0.0 || jt->backlash_filt != 0.0;
+    if (wanted == jt->comp.shared)
+        return;
+    if (!wanted || !is_enabled(m) || (is_inpos(m) && !axes_moving(m) && !eoffsets_moving(m)))
+        jt->comp.shared = wanted;
+}
+
+/* ---- the cycle ---- */
 
 /* Index of the entry whose interval holds pos: binary search, at most 9 steps. */
 static int interval_of(const emcmot_comp_t *c, double pos)
@@ -64,7 +115,7 @@ static int interval_of(const emcmot_comp_t *c, double pos)
 
 static void wanted_correction(emcmot_joint_t *jt)
 {
-    if (jt->vel_cmd == 0.0)
+    if (fabs(jt->vel_cmd) < STILL)
         return;
     if (jt->comp.entries > 0) {
         const emcmot_comp_entry_t *e = &jt->comp.array[interval_of(&jt->comp, jt->pos_cmd)];
@@ -75,52 +126,19 @@ static void wanted_correction(emcmot_joint_t *jt)
     }
 }
 
-/* One cycle towards the wanted value: distance s > 0 ahead, speed v towards it. Returns the step. */
-static double ramp_step(double s, double *speed, double vmax, double amax, double T, int *arrived)
+/* One cycle towards the wanted value; a hold of the feed holds it too. */
+static void approach(emcmot_joint_t *jt, double scale, double T)
 {
-    double v = fmax(0.0, *speed), dv = amax * T, ds_vel = v * T;
-    double stop = 0.5 * (v + dv) * (v + dv) / amax;
-    *arrived = 0;
-    if (s <= stop + ds_vel) {
-        if (v > dv) {
-            *speed = v - dv;
-            return ds_vel - 0.5 * dv * T;
-        }
-        *speed = 0.0;
-        *arrived = 1;
-        return s;
-    }
-    if (v + dv > vmax)
-        dv = vmax - v;
-    double ds_acc = 0.5 * dv * T;
-    stop = 0.5 * (v + dv) * (v + dv) / amax;
-    if (s > stop + ds_vel + ds_acc) {
-        *speed = v + dv;
-        return ds_vel + ds_acc;
-    }
-    *speed = v;
-    return ds_vel;
-}
-
-static void ramp(emcmot_joint_t *jt, double scale, double T)
-{
-    double vmax = 0.5 * jt->vel_limit * scale, amax = 0.5 * jt->acc_limit;
-    double s = jt->backlash_corr - jt->backlash_filt, dir = s >= 0.0 ? 1.0 : -1.0, v;
-    int arrived;
-    if (s == 0.0) {
-        jt->backlash_vel = 0.0;
-        return;
-    }
-    v = dir * jt->backlash_vel;
-    if (v < 0.0) { /* the wanted value turned back: brake first */
-        v = fmin(0.0, v + amax * T);
-        jt->backlash_filt += dir * v * T;
-        jt->backlash_vel = dir * v;
-        return;
-    }
-    double step = ramp_step(fabs(s), &v, vmax, amax, T, &arrived);
-    jt->backlash_filt = arrived ? jt->backlash_corr : jt->backlash_filt + dir * step;
-    jt->backlash_vel = dir * v;
+    struct joint_limits l = comp_limits(jt);
+    simple_tp_t *tp = &jt->comp.tp;
+    tp->max_vel = l.vel * fmin(1.0, scale);
+    tp->max_acc = l.acc;
+    tp->max_jerk = l.jerk;
+    tp->pos_cmd = jt->backlash_corr;
+    tp->enable = scale > 0.0;
+    simple_tp_update(tp, T);
+    jt->backlash_filt = tp->curr_pos;
+    jt->backlash_vel = tp->curr_vel;
 }
 
 void phase_compensation(struct motion *m)
@@ -129,7 +147,9 @@ void phase_compensation(struct motion *m)
         emcmot_joint_t *jt = &m->joint[j];
         if (!is_active(jt))
             continue;
+        share_limits(m, jt);
         wanted_correction(jt);
-        ramp(jt, m->status->net_feed_scale, m->servo_period);
+        if (jt->comp.shared)
+            approach(jt, m->status->net_feed_scale, m->servo_period);
     }
 }

@@ -15,6 +15,7 @@
 #include "motion_priv.h"
 
 #define LIMIT_EPSILON 1e-12 /* units: rounding of sums */
+#define START 1e-3          /* units: a path that waits at rest is looked at as far as this */
 
 int axis_has_no_limits(const struct axis *a) { return a->min_pos_limit == 0.0 && a->max_pos_limit == 0.0; }
 
@@ -99,6 +100,27 @@ void eoffsets_hand_over(struct motion *m)
     }
 }
 
+void eoffsets_asked(const struct motion *m, double asked[EMCMOT_MAX_AXIS])
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        asked[n] = m->axis[n].ext_offset_tp.enable ? m->axis[n].ext_offset_tp.pos_cmd : NAN;
+}
+
+void eoffsets_hold(struct motion *m)
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        m->axis[n].ext_offset_tp.enable = 0;
+}
+
+void eoffsets_release(struct motion *m, const double asked[EMCMOT_MAX_AXIS])
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        if (!isnan(asked[n])) {
+            m->axis[n].ext_offset_tp.pos_cmd = asked[n];
+            m->axis[n].ext_offset_tp.enable = 1;
+        }
+}
+
 int eoffset_prepare(struct axis *a)
 {
     double whole = a->acc_limit + a->ext_offset_acc_limit;
@@ -161,21 +183,42 @@ static struct axis_reach path_reach(struct motion *m, int n, double at, int one_
     return r;
 }
 
+/* 1 when the path's way to rest takes joints out of their limits, with the offsets that there are. */
+static int joints_leave(struct motion *m, const EmcPose *pose)
+{
+    const emcmot_status_t *s = m->status;
+    double T = m->traj_period, v = s->current_vel, left = s->distance_to_go, stop = s->decel_dist + 2.0 * v * T;
+    EmcPose at = *pose;
+    if (tpIsDone(&m->tp))
+        return 0;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        if (v > 0.0)
+            *emcPoseAxis(&at, n) += (emcPoseGetAxis(pose, n) - emcPoseGetAxis(&m->path_was, n)) / (v * T) * stop;
+        else if (left > 0.0) /* where it would go from rest */
+            *emcPoseAxis(&at, n) += emcPoseGetAxis(&s->dtg, n) / left * fmin(left, START);
+    }
+    return offset_share_leaves(m, &at);
+}
+
 int eoffset_path_waits(struct motion *m)
 {
     EmcPose pose;
+    int any = 0;
     tpGetPos(&m->tp, &pose);
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         const struct axis *a = &m->axis[n];
         const simple_tp_t *e = &a->ext_offset_tp;
-        if (axis_has_no_limits(a) || (e->curr_pos == 0.0 && e->curr_vel == 0.0))
+        if (e->curr_pos == 0.0 && e->curr_vel == 0.0)
+            continue;
+        any = 1;
+        if (axis_has_no_limits(a))
             continue;
         struct axis_reach p = path_reach(m, n, emcPoseGetAxis(&pose, n), 1), o = axis_reach_of(e, m->traj_period);
         if ((o.hi > 0.0 && p.hi + o.hi > a->max_pos_limit + LIMIT_EPSILON) ||
             (o.lo < 0.0 && p.lo + o.lo < a->min_pos_limit - LIMIT_EPSILON))
             return 1;
     }
-    return 0;
+    return any && joints_leave(m, &pose);
 }
 
 /* The room the offset has beside the path: what the present move leaves at its end counts as
@@ -199,27 +242,50 @@ static struct axis_reach offset_room(struct motion *m, int n, double at)
     return room;
 }
 
-void eoffset_coord_step(struct motion *m, EmcPose *pose)
+/* One cycle of all offset planners beside the path; 1: a target is out of the room there is. */
+static int step_offsets(struct motion *m, const EmcPose *path)
 {
     double T = m->traj_period;
     int limited = 0;
-    EmcPose path = *pose;
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         struct axis *a = &m->axis[n];
         simple_tp_t *e = &a->ext_offset_tp;
-        double *at = emcPoseAxis(pose, n);
         if (!eoffset_prepare(a))
             continue;
+        e->max_vel *= a->offset_part.vel;
+        e->max_acc *= a->offset_part.acc;
+        e->max_jerk *= a->offset_part.jerk;
         if (axis_has_no_limits(a)) {
             axis_step_within(e, -INFINITY, INFINITY, T);
         } else {
-            struct axis_reach room = offset_room(m, n, *at);
+            struct axis_reach room = offset_room(m, n, emcPoseGetAxis(path, n));
             limited |= e->enable && (e->pos_cmd > room.hi || e->pos_cmd < room.lo);
             axis_step_within(e, room.lo, room.hi, T);
         }
-        *at += e->curr_pos;
     }
-    m->path_was = path;
-    m->eoffset_limited = limited;
-    hal_set_bool(m->pins->eoffset_limited, limited);
+    return limited;
+}
+
+void eoffset_coord_step(struct motion *m, EmcPose *pose)
+{
+    simple_tp_t was[EMCMOT_MAX_AXIS];
+    double asked[EMCMOT_MAX_AXIS];
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        was[n] = m->axis[n].ext_offset_tp;
+    eoffsets_asked(m, asked);
+    if (m->offsets_wait)
+        eoffsets_hold(m);
+    offset_share_scale(m, pose);
+    m->eoffset_limited = m->path_waits | step_offsets(m, pose);
+    if (eoffsets_moving(m) && offset_share_leaves(m, pose)) { /* a joint would leave its limits: stop instead */
+        for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+            m->axis[n].ext_offset_tp = was[n];
+        eoffsets_hold(m);
+        step_offsets(m, pose);
+        m->eoffset_limited = 1;
+    }
+    eoffsets_release(m, asked);
+    m->path_was = *pose;
+    axis_apply_eoffsets(m, pose, 1);
+    hal_set_bool(m->pins->eoffset_limited, m->eoffset_limited);
 }

@@ -104,11 +104,12 @@ static void joint_wheel(struct motion *m, int j, int delta)
         return;
     refresh_jog_limits(m, j);
     double from = jt->free_tp.enable ? jt->free_tp.pos_cmd : jt->free_tp.curr_pos;
-    double target = from + distance, acc = jt->acc_limit * accel_fraction(p->jog_accel_fraction);
+    struct joint_limits lim = joint_motion_limits(jt);
+    double target = from + distance, acc = lim.acc * accel_fraction(p->jog_accel_fraction);
     if (target > jt->max_jog_limit || target < jt->min_jog_limit)
         return;
     if (hal_get_bool(p->jog_vel_mode))
-        target = velocity_mode(target, jt->pos_cmd, jt->vel_limit * fmin(1.0, m->status->net_feed_scale), acc);
+        target = velocity_mode(target, jt->pos_cmd, lim.vel * fmin(1.0, m->status->net_feed_scale), acc);
     jt->free_tp.pos_cmd = target;
     jt->free_tp.max_vel = jt->vel_limit;
     m->joint_acc_scale[j] = accel_fraction(p->jog_accel_fraction);

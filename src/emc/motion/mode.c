@@ -139,6 +139,8 @@ static void enable(struct motion *m)
         axes_sync_to(m, &m->status->carte_pos_cmd);
     if (is_teleop(m) || is_coord(m))
         position_enter_cartesian(m);
+    m->path_was = m->status->carte_pos_cmd;
+    offset_share_find(m);
     set_motion_flag(m, EMCMOT_MOTION_ENABLE_BIT, 1);
     set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
 }
@@ -166,6 +168,8 @@ static void enter_coord(struct motion *m)
     base = *pose;
     axis_apply_eoffsets(m, &base, -1);
     tpSetPos(&m->tp, &base);
+    m->path_was = base;
+    offset_share_find(m);
     m->status->overrideLimitMask = 0;
     m->settle = INT_MAX;
     set_motion_flag(m, EMCMOT_MOTION_COORD_BIT, 1);
@@ -183,11 +187,21 @@ static void enter_free(struct motion *m)
     set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 0);
 }
 
+/* Offsets are limited in another way in the other mode: 1 while they have to stop first, where that
+ * depends on the place. To free mode they need not: joint planners take over. */
+static int offsets_stop_first(struct motion *m)
+{
+    m->offsets_wait = m->kin_type != KINEMATICS_IDENTITY && (m->internal->teleoperating || m->internal->coordinating);
+    return m->offsets_wait && eoffsets_moving(m);
+}
+
 /* At rest as the mode in effect means it. */
 static int may_change(struct motion *m)
 {
     if (m->aligning) /* to free mode only: joint planners move already */
         return !m->internal->teleoperating && !m->internal->coordinating;
+    if (offsets_stop_first(m))
+        return 0;
     if (is_teleop(m)) {
         if (axes_moving(m)) {
             axes_abort(m, 0);
@@ -221,6 +235,7 @@ static void change_mode(struct motion *m)
     int to_teleop = want->teleoperating && !teleop;
     int to_coord = want->coordinating && !coord;
     int to_free = !want->teleoperating && !want->coordinating && (teleop || coord);
+    m->offsets_wait = 0;
     if ((!to_teleop && !to_coord && !to_free) || !may_change(m))
         return;
     if (!to_free && !pose_is_known(m))

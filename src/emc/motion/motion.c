@@ -182,11 +182,14 @@ static int planner_joints(void)
 }
 
 /* Asking does not choose: the flags of the real position stay as they are. */
+/* Where the joints are for a place of the path, with the external offsets of now. */
 static int planner_inverse(const EmcPose *pose, double *joint)
 {
     KINEMATICS_INVERSE_FLAGS iflags = motion_state_.iflags;
     KINEMATICS_FORWARD_FLAGS fflags = motion_state_.fflags;
-    return kinematicsInverse(pose, joint, &iflags, &fflags);
+    EmcPose with = *pose;
+    axis_apply_eoffsets(&motion_state_, &with, 1);
+    return kinematicsInverse(&with, joint, &iflags, &fflags);
 }
 
 static void planner_joint_commands(double *joint)
@@ -197,10 +200,10 @@ static void planner_joint_commands(double *joint)
 
 static void planner_joint_limits(int joint, double *vel, double *acc, double *jerk)
 {
-    const emcmot_joint_t *jt = &motion_state_.joint[joint];
-    *vel = jt->vel_limit;
-    *acc = jt->acc_limit;
-    *jerk = jt->jerk_limit;
+    struct joint_limits l = offset_share_path(&motion_state_, joint);
+    *vel = l.vel;
+    *acc = l.acc;
+    *jerk = l.jerk;
 }
 
 static const struct tp_machine planner_machine = {planner_joints, planner_inverse, planner_joint_commands,

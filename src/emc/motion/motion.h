@@ -227,6 +227,9 @@ typedef struct {
     int entries; /* points given, without the two sentinels */
     emcmot_comp_entry_t *entry; /* unused by others than compensation */
     emcmot_comp_entry_t array[EMCMOT_COMP_SIZE + 2];
+    double swing, slope; /* largest change at once, largest slope of the trims */
+    int shared;          /* 1: the joint's limits are shared between its motion and compensation */
+    simple_tp_t tp;      /* towards the wanted value */
 } emcmot_comp_t;
 
 /* Internal state of a joint; [servo] writes and reads, home modules too (homing.h). */

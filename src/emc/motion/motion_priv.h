@@ -107,8 +107,13 @@ struct axis {
     int kb_ajog_active, wheel_ajog_active;
     int old_ajog_counts, old_eoffset_counts;
     int eoffset_counts_known;
-    struct teleop_scale part;            /* in effect */
+    struct teleop_scale part;            /* in effect, teleop mode */
+    struct teleop_scale offset_part;     /* of the offset planner's limits in coordinated mode; 0 not known */
     double jog_acc_scale;                /* of the wheel jog in progress, else 1 */
+};
+
+struct joint_limits {
+    double vel, acc, jerk; /* units/s, /s^2, /s^3; jerk 0: none */
 };
 
 struct axis_reach {
@@ -162,8 +167,12 @@ struct motion {
     double joint_acc_scale[EMCMOT_MAX_JOINTS]; /* wheel jog's fraction, else 1 */
     int joint_violated[EMCMOT_MAX_JOINTS];     /* soft limit message given */
     int eoffset_limited;
+    int path_waits;            /* 1: held, so that path and offsets stay within the limits */
+    int offsets_wait;          /* 1: they stop, and go on after a change of mode */
     EmcPose queue_end;         /* of the last move that was queued */
     EmcPose path_was;          /* the planner's position of the cycle before */
+    double offset_share[EMCMOT_MAX_JOINTS]; /* of a joint's limits, for external offsets */
+    int offset_axes[EMCMOT_MAX_JOINTS];     /* number of axes whose offsets move the joint */
     int jog_was_active;
     char wait_atspeed_told;
 };
@@ -261,6 +270,8 @@ void axes_sync_to(struct motion *m, const EmcPose *pose); /* at rest there */
 void axes_abort(struct motion *m, int immediate);
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
+/* Sum of the ways (units) that homed joints at q are outside their limits, less the rounding of stops. */
+double joints_outside(const struct motion *m, const double *q);
 void axis_teleop_step(struct motion *m, EmcPose *pose);   /* -> positions with offsets */
 /* Speed (units/s, >= 0) that a planner has or cannot avoid any more. */
 double axis_speed_ahead(const simple_tp_t *tp);
@@ -270,6 +281,17 @@ double axis_get_jerk_limit(int axis); /* 0: none */
 
 /* teleop_scale.c: parts of the axes' limits that keep the joints within theirs */
 void teleop_scale(struct motion *m, struct teleop_scale *scale);
+
+/* offset_share.c: the joints' limits between the path and the external offsets */
+
+/* Finds out which joints external offsets move: their limits are shared from now on. At rest. */
+void offset_share_find(struct motion *m);
+/* What the path may use of the limits of joint j. */
+struct joint_limits offset_share_path(const struct motion *m, int j);
+/* Sets each axis' offset_part so that the joints keep within the rest; path: this cycle's. */
+void offset_share_scale(struct motion *m, const EmcPose *path);
+/* 1: with the path at pose (and the offsets where they can stop) joints get farther out of their limits than they are. */
+int offset_share_leaves(struct motion *m, const EmcPose *pose);
 
 /* eoffset.c: external offsets */
 int axis_has_no_limits(const struct axis *a);
@@ -284,6 +306,10 @@ void eoffsets_hand_over(struct motion *m);
 void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction);
 void axis_zero_eoffsets(struct motion *m);
 int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets);
+/* The targets of enabled offsets, else NAN; stops all offsets; gives the targets back. */
+void eoffsets_asked(const struct motion *m, double asked[EMCMOT_MAX_AXIS]);
+void eoffsets_hold(struct motion *m);
+void eoffsets_release(struct motion *m, const double asked[EMCMOT_MAX_AXIS]);
 /* One step of period T (s) towards a target within [lo, hi]; the planner's own target stays. */
 void axis_step_within(simple_tp_t *tp, double lo, double hi, double T);
 /* Where a planner may still get to when it stops now. */
@@ -309,8 +335,11 @@ void position_enter_free(struct motion *m);
 
 /* comp.c */
 void comp_init(emcmot_joint_t *joint);
+void comp_set_backlash(emcmot_joint_t *joint, double backlash);
 /* 0, -1 table full, -2 nominal does not increase. */
 int comp_add(emcmot_joint_t *joint, double nominal, double forward, double reverse);
+/* [servo] What compensation leaves of a joint's limits to the motion that is commanded. */
+struct joint_limits joint_motion_limits(const emcmot_joint_t *jt);
 
 /* spindle.c */
 void spindle_inputs(struct motion *m);

@@ -17,15 +17,15 @@
 static void set_joint_limits(struct motion *m, int j)
 {
     emcmot_joint_t *jt = &m->joint[j];
-    double acc = jt->acc_limit, jerk = jt->jerk_limit;
-    if (m->status->acc > 0.0 && acc > m->status->acc)
-        acc = m->status->acc;
-    if (jerk > m->status->jerk)
-        jerk = m->status->jerk;
-    jt->free_tp.max_acc = acc * m->joint_acc_scale[j];
-    jt->free_tp.max_jerk = jerk;
-    if (!(jt->free_tp.max_vel <= jt->vel_limit))
-        jt->free_tp.max_vel = jt->vel_limit;
+    struct joint_limits l = joint_motion_limits(jt);
+    if (m->status->acc > 0.0 && l.acc > m->status->acc)
+        l.acc = m->status->acc;
+    if (l.jerk > m->status->jerk)
+        l.jerk = m->status->jerk;
+    jt->free_tp.max_acc = l.acc * m->joint_acc_scale[j];
+    jt->free_tp.max_jerk = l.jerk;
+    if (!(jt->free_tp.max_vel <= l.vel))
+        jt->free_tp.max_vel = l.vel;
 }
 
 /* One cycle of joint j's planner; 1 while it moves. */
@@ -130,7 +130,7 @@ void position_enter_free(struct motion *m)
         set_joint_limits(m, j);
         simple_tp_adopt(&jt->free_tp, jt->pos_cmd,
                         d1 / T + (jt->free_tp.max_jerk > SIMPLE_TP_MIN_JERK ? 0.5 * acc * T : 0.0), acc);
-        jt->free_tp.max_vel = jt->vel_limit;
+        jt->free_tp.max_vel = joint_motion_limits(jt).vel;
         jt->kb_jjog_active = jt->wheel_jjog_active = 0;
     }
     eoffsets_hand_over(m);
@@ -142,7 +142,7 @@ static void align(struct motion *m)
     for (int j = 0; j < kin_joints(m); j++) {
         simple_tp_t *tp = &m->joint[j].free_tp;
         tp->pos_cmd = m->align_to[j];
-        tp->max_vel = m->joint[j].vel_limit;
+        tp->max_vel = joint_motion_limits(&m->joint[j]).vel;
         tp->enable = 1; /* whatever stopped it: only leaving the mode ends this */
         moving |= joint_step(m, j);
     }
@@ -204,7 +204,8 @@ static void coord_position(struct motion *m)
     }
     if (m->cubic[0].need_next) {
         EmcPose pose;
-        if (eoffset_path_waits(m))
+        m->path_waits = eoffset_path_waits(m);
+        if (m->path_waits)
             m->status->net_feed_scale = 0.0;
         tpRunCycle(&m->tp, m->period_ns);
         tpGetPos(&m->tp, &pose);

@@ -4,7 +4,7 @@
  *
  * In:     axis planners, kinematics, limits of the joints
  * Out:    parts (0..1] of the axes' speed, acceleration and jerk
- * Thread: servo; at most PLACES * (3 + 9) calls of kinematicsInverse, none at rest
+ * Thread: servo; at most PLACES * (7 + 18) calls of kinematicsInverse, none at rest
  * Method: on the way to where the axes would stop, differences of the inverse kinematics
  *         give each joint's speed D, curvature term C and acceleration G for the axes'
  *         full speed and acceleration. With parts s (speed) and a (acceleration):
@@ -16,6 +16,7 @@
 #include "motion_priv.h"
 
 #define PLACES 3
+#define AHEAD 3.0         /* of the way to a stop is looked at */
 #define STEP_S 0.005      /* of the differences: at 1 mm/s 5 um, far above the solvers' precision */
 #define CURVED_SHARE 0.4  /* of a joint's acceleration that the curvature term may take */
 #define CURVED_MARGIN 0.9 /* of the limits where the Jacobian changes: it is looked at in places only */
@@ -43,7 +44,7 @@ static double direction(const simple_tp_t *tp)
 
 static double way_ahead(const simple_tp_t *tp, double T)
 {
-    return 1.2 * simple_tp_stop_distance(tp, T) + 3.0 * tp->curr_vel * T;
+    return AHEAD * simple_tp_stop_distance(tp, T) + 6.0 * tp->curr_vel * T;
 }
 
 /* What the axes want to do; 0: nothing moves. */
@@ -111,13 +112,23 @@ static __attribute__((noinline)) int load_at(struct motion *m, const struct want
         ahead[j] = ahead2[j] = behind[j] = q[j];
     derived = joints_of(m, &pose, w, -1, h, ahead) == 0 && joints_of(m, &pose, w, -1, 2.0 * h, ahead2) == 0 &&
               joints_of(m, &pose, w, -1, -h, behind) == 0;
+    if (!derived) { /* at the edge of what can be reached: looking back */
+        for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+            ahead[j] = ahead2[j] = behind[j] = q[j];
+        derived = joints_of(m, &pose, w, -1, -h, ahead) == 0 && joints_of(m, &pose, w, -1, -2.0 * h, ahead2) == 0 &&
+                  joints_of(m, &pose, w, -1, h / 16.0, behind) == 0;
+        for (int j = 0; derived && j < joints; j++)
+            behind[j] = q[j] + 16.0 * (behind[j] - q[j]);
+    }
+    if (!derived)
+        return -1;
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         if (w[n].vel <= 0.0)
             continue;
         for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
             moved[j] = q[j];
-        if (joints_of(m, &pose, w, n, h, moved) != 0)
-            continue;
+        if (joints_of(m, &pose, w, n, h, moved) != 0 && joints_of(m, &pose, w, n, -h, moved) != 0)
+            return -1;
         for (int j = 0; j < joints; j++) {
             double rate = fabs(moved[j] - q[j]) / h;
             speed[j] += rate;
@@ -131,8 +142,6 @@ static __attribute__((noinline)) int load_at(struct motion *m, const struct want
         load[j].acc = fmax(load[j].acc, acc[j]);
         load[j].jerk = fmax(load[j].jerk, jerk[j]);
         load[j].now = fmax(load[j].now, now[j]);
-        if (!derived)
-            continue;
         load[j].curve = fmax(load[j].curve, fabs(ahead[j] - 2.0 * q[j] + behind[j]) / (h * h));
         load[j].twist = fmax(load[j].twist, fabs(ahead2[j] - 3.0 * (ahead[j] - q[j]) - behind[j]) / (h * h * h));
     }
@@ -140,32 +149,45 @@ static __attribute__((noinline)) int load_at(struct motion *m, const struct want
 }
 
 static double part_of(double limit, double load) { return load > limit * (1.0 + 1e-9) ? limit / load : 1.0; }
-static int is_curved(const struct load *l, const emcmot_joint_t *jt) { return l->curve > STRAIGHT * jt->acc_limit; }
+static int is_curved(const struct load *l, const struct joint_limits *lim) { return l->curve > STRAIGHT * lim->acc; }
 
 /* Parts for one joint; *s holds those of the joints before. */
-static void speed_for(const emcmot_joint_t *jt, const struct load *l, struct teleop_scale *s)
+static void speed_for(const struct joint_limits *lim, const struct load *l, struct teleop_scale *s)
 {
-    double margin = is_curved(l, jt) ? CURVED_MARGIN : 1.0;
-    s->vel = fmin(s->vel, part_of(margin * jt->vel_limit, l->speed));
-    if (!is_curved(l, jt))
+    double margin = is_curved(l, lim) ? CURVED_MARGIN : 1.0;
+    s->vel = fmin(s->vel, part_of(margin * lim->vel, l->speed));
+    if (!is_curved(l, lim))
         return;
-    s->vel = fmin(s->vel, sqrt(part_of(CURVED_SHARE * jt->acc_limit, l->curve)));
-    if (jt->jerk_limit > 0.0)
-        s->vel = fmin(s->vel, cbrt(part_of(JERK_SHARE * jt->jerk_limit, l->twist)));
+    s->vel = fmin(s->vel, sqrt(part_of(CURVED_SHARE * lim->acc, l->curve)));
+    if (lim->jerk > 0.0)
+        s->vel = fmin(s->vel, cbrt(part_of(JERK_SHARE * lim->jerk, l->twist)));
 }
 
-static void rest_for(const emcmot_joint_t *jt, const struct load *l, double acc_of_speed, struct teleop_scale *s)
+static void rest_for(const struct joint_limits *lim, const struct load *l, double acc_of_speed, struct teleop_scale *s)
 {
-    if (!is_curved(l, jt)) {
-        s->acc = fmin(s->acc, part_of(jt->acc_limit, l->acc));
-        if (jt->jerk_limit > 0.0)
-            s->jerk = fmin(s->jerk, part_of(jt->jerk_limit, l->jerk));
+    if (!is_curved(l, lim)) {
+        s->acc = fmin(s->acc, part_of(lim->acc, l->acc));
+        if (lim->jerk > 0.0)
+            s->jerk = fmin(s->jerk, part_of(lim->jerk, l->jerk));
         return;
     }
-    s->acc = fmin(s->acc, part_of(CURVED_MARGIN * jt->acc_limit - s->vel * s->vel * l->curve, l->acc));
-    if (jt->jerk_limit > 0.0) {
-        s->acc = fmin(s->acc, part_of(JERK_SHARE * jt->jerk_limit, 3.0 * l->curve * s->vel * acc_of_speed));
-        s->jerk = fmin(s->jerk, part_of(JERK_SHARE * jt->jerk_limit, l->jerk));
+    s->acc = fmin(s->acc, part_of(CURVED_MARGIN * lim->acc - s->vel * s->vel * l->curve, l->acc));
+    if (lim->jerk > 0.0) {
+        s->acc = fmin(s->acc, part_of(JERK_SHARE * lim->jerk, 3.0 * l->curve * s->vel * acc_of_speed));
+        s->jerk = fmin(s->jerk, part_of(JERK_SHARE * lim->jerk, l->jerk));
+    }
+}
+
+/* At the very edge of what can be reached nothing is known: the parts of the cycle before. */
+static void parts_of_before(const struct motion *m, const struct wanted *w, struct teleop_scale *s)
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        const struct teleop_scale *was = &m->axis[n].part;
+        if (w[n].vel <= 0.0)
+            continue;
+        s->vel = fmin(s->vel, was->vel);
+        s->acc = fmin(s->acc, was->acc);
+        s->jerk = fmin(s->jerk, was->jerk);
     }
 }
 
@@ -173,28 +195,36 @@ void teleop_scale(struct motion *m, struct teleop_scale *scale)
 {
     struct wanted w[EMCMOT_MAX_AXIS];
     struct load load[EMCMOT_MAX_JOINTS] = {{0}};
+    struct joint_limits lim[EMCMOT_MAX_JOINTS];
     struct teleop_scale s = {1.0, 1.0, 1.0, 0};
     double q[EMCMOT_MAX_JOINTS], acc_of_speed = 0.0;
-    int joints = kin_joints(m), too_fast = 0;
+    int joints = kin_joints(m), too_fast = 0, edge = 0;
     *scale = s;
     if (!wanted_motion(m, w))
         return;
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
         q[j] = m->joint[j].coarse_pos;
     for (int i = 0; i < PLACES; i++)
-        if (load_at(m, w, (double)i / (PLACES - 1), q, load) != 0)
+        if (load_at(m, w, (double)i / (PLACES - 1), q, load) != 0) {
+            edge = 1;
+            if (i == 0)
+                parts_of_before(m, w, &s);
             break;
+        }
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
         if (w[n].vel > 0.0)
             acc_of_speed = fmax(acc_of_speed, w[n].acc / w[n].vel);
+    for (int j = 0; j < joints; j++) {
+        lim[j] = joint_motion_limits(&m->joint[j]);
+        speed_for(&lim[j], &load[j], &s);
+    }
     for (int j = 0; j < joints; j++)
-        speed_for(&m->joint[j], &load[j], &s);
-    for (int j = 0; j < joints; j++)
-        rest_for(&m->joint[j], &load[j], acc_of_speed, &s);
+        rest_for(&lim[j], &load[j], acc_of_speed, &s);
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
         too_fast |= w[n].now > s.vel * w[n].vel * (1.0 + 1e-9);
     for (int j = 0; too_fast && j < joints; j++)
-        if (load[j].now + s.acc * load[j].acc * m->traj_period > m->joint[j].vel_limit)
+        if (load[j].now + s.acc * load[j].acc * m->traj_period > lim[j].vel)
             s.crowded = 1;
+    s.crowded |= edge; /* nothing gets faster towards what cannot be reached */
     *scale = s;
 }

@@ -216,10 +216,13 @@ def machine(name, jerk=0.0, ratio=0.0):
     return Machine(joints=6, kins="5axiskins", axes="xyzbcw", **options)
 
 
-def check(names, seeds, sequence, weights, jerks=(0.0, 5000.0), ratios=(0.0, 0.3), told=str):
-    """Runs seeds on each machine; ends with what went wrong, in words of told(problem) that are not empty."""
+def check(names, seeds, sequence, weights, jerks=(0.0, 5000.0), ratios=(0.0, 0.3), told=str, prepare=None):
+    """Runs seeds on each machine; ends with what went wrong, in words of told(problem) that are not empty.
+    prepare(machine): settings more."""
     for name, jerk, ratio in [(n, j, r) for n in names for j in jerks for r in ratios]:
         m = machine(name, jerk, ratio)
+        if prepare:
+            prepare(m)
         w = dict(weights, eoffset=10) if ratio else weights
         for seed in seeds:
             problems, _ = fuzz(m, seed, w, sequence)

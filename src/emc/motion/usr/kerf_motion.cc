@@ -283,6 +283,8 @@ PYBIND11_MODULE(kerf_motion, m)
     m.def("disconnect", [] { usrmotExit(); });
     m.def("quiet", [](bool on) { usrmotSetQuiet(on); }, "do not print refused commands");
     m.def("send", &send);
+    m.def("load_comp", [](int joint, const std::string &file, int type) { return usrmotLoadComp(joint, file.c_str(), type); },
+          py::arg("joint"), py::arg("file"), py::arg("type") = 0);
     m.def("status", &status);
     m.def("config", &config);
     m.def("error", &error);

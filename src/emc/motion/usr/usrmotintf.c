@@ -6,8 +6,10 @@
  * Method:  status and configuration are copied between equal head and tail
  *          counters (a sequence lock read at most READS times).
  */
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -185,26 +187,76 @@ int usrmotWriteEmcmotCommand(emcmot_command_t *c)
     return EMCMOT_COMM_OK;
 }
 
-int usrmotLoadComp(int joint, const char *file, int type)
+#define COMP_STEEP 0.5 /* correction per travel: positions and trims mixed up */
+
+/* What is wrong with a line of a compensation file; NULL when nothing is. */
+static const char *comp_line(const char *line, double v[3])
+{
+    int end = 0;
+    if (sscanf(line, "%lf %lf %lf%n", &v[0], &v[1], &v[2], &end) != 3)
+        return "three numbers expected";
+    if (!isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2]))
+        return "a value is no number";
+    if (line[end] != '\0' && !isspace((unsigned char)line[end]))
+        return "three numbers expected";
+    return NULL;
+}
+
+/* Sends the points of an open file; OR of the results of the commands. */
+static int load_points(FILE *fp, const char *file, int joint, int type)
 {
     static emcmot_command_t c; /* too large for some stacks */
-    double nominal, forward, reverse;
     char line[256];
+    const char *wrong;
+    double v[3], before[3] = {0, 0, 0};
+    int number = 0, points = 0, warned = 0, result = 0;
+    while (fgets(line, sizeof(line), fp)) {
+        number++;
+        if ((wrong = comp_line(line, v))) {
+            if (line[strspn(line, " \t\r\n")] != '\0')
+                fprintf(stderr, "%s:%d: %s: the %d points before this line are used\n", file, number, wrong, points);
+            break;
+        }
+        memset(&c, 0, sizeof(c));
+        c.command = EMCMOT_SET_JOINT_COMP;
+        c.joint = joint;
+        c.comp_nominal = v[0];
+        c.comp_forward = type ? v[1] : v[0] - v[1];
+        c.comp_reverse = type ? v[2] : v[0] - v[2];
+        result |= usrmotWriteEmcmotCommand(&c);
+        if (points >= EMCMOT_COMP_SIZE) {
+            fprintf(stderr, "%s:%d: more than %d points\n", file, number, EMCMOT_COMP_SIZE);
+            break;
+        }
+        if (points > 0 && !(v[0] > before[0])) {
+            fprintf(stderr, "%s:%d: position %g is not above %g of the point before: point not used\n", file, number, v[0],
+                    before[0]);
+            continue;
+        }
+        double most = COMP_STEEP * (v[0] - before[0]);
+        if (points > 0 && !warned && (fabs(c.comp_forward - before[1]) > most || fabs(c.comp_reverse - before[2]) > most)) {
+            fprintf(stderr, "%s:%d: the correction changes by more than half of the travel since the point before: is COMP_FILE_TYPE %d right?\n",
+                    file, number, type);
+            warned = 1;
+        }
+        before[0] = v[0];
+        before[1] = c.comp_forward;
+        before[2] = c.comp_reverse;
+        points++;
+    }
+    if (points == 0)
+        fprintf(stderr, "%s: no compensation points\n", file);
+    return result;
+}
+
+int usrmotLoadComp(int joint, const char *file, int type)
+{
     FILE *fp = fopen(file, "r");
-    int result = 0;
     if (!fp) {
         fprintf(stderr, "can't open compensation file %s\n", file);
         return -1;
     }
-    while (fgets(line, sizeof(line), fp) && sscanf(line, "%lf %lf %lf", &nominal, &forward, &reverse) == 3) {
-        memset(&c, 0, sizeof(c));
-        c.command = EMCMOT_SET_JOINT_COMP;
-        c.joint = joint;
-        c.comp_nominal = nominal;
-        c.comp_forward = type ? forward : nominal - forward;
-        c.comp_reverse = type ? reverse : nominal - reverse;
-        result |= usrmotWriteEmcmotCommand(&c);
-    }
+    int result = load_points(fp, file, joint, type);
     fclose(fp);
     return result;
 }
