@@ -48,7 +48,8 @@ enum CANON_AXIS {
     CANON_AXIS_W
 };
 enum CANON_INPUT { ANALOG_INPUT = 0, DIGITAL_INPUT = 1 };
-enum CANON_WAIT {
+/// M66 hands over any L; a value that is none of these is never reached, the wait times out.
+enum CANON_WAIT : int {
     WAIT_MODE_IMMEDIATE = 0,
     WAIT_MODE_RISE,
     WAIT_MODE_FALL,
@@ -247,6 +248,8 @@ class Canon
     virtual EmcPose GET_EXTERNAL_TOOL_LENGTH_OFFSET() { return EmcPose{}; }
     virtual int GET_EXTERNAL_TOOL_SLOT() { return 0; }           ///< index of the tool in the spindle
     virtual int GET_EXTERNAL_SELECTED_TOOL_SLOT() { return -1; } ///< index of the prepared tool, -1 none
+    /// The last index that may hold a tool.
+    virtual int GET_EXTERNAL_TOOL_TABLE_LAST() { return CANON_POCKETS_MAX - 1; }
     virtual CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) { return (void)idx, tooldata_entry_init(); }
     virtual int GET_EXTERNAL_TC_FAULT() { return 0; }
     virtual int GET_EXTERNAL_TC_REASON() { return 0; }

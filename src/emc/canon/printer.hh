@@ -143,6 +143,7 @@ class CanonPrinter : public Canon
     int GET_EXTERNAL_TOOL_SLOT() override { return active_slot; }
     int GET_EXTERNAL_SELECTED_TOOL_SLOT() override { return 0; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override;
+    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return tooldata_last_index_get(); }
     bool GET_EXTERNAL_FEED_OVERRIDE_ENABLE() override { return feed_override; }
     bool GET_EXTERNAL_SPINDLE_OVERRIDE_ENABLE(int spindle) override { return speed_override[spindle]; }
 

@@ -50,6 +50,7 @@ class PathCanon final : public PreviewCanon
     int GET_EXTERNAL_AXIS_MASK() override { return options.axis_mask; }
     bool GET_BLOCK_DELETE() override { return options.block_delete; }
     std::string GET_EXTERNAL_PARAMETER_FILE_NAME() override { return options.parameter_file; }
+    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return int(options.tools.size()) - 1; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override
     {
         return size_t(idx) < options.tools.size() ? options.tools[size_t(idx)] : tooldata_entry_init();

@@ -30,7 +30,7 @@ int check_g10(Setup &s, const Block &b)
     CHECK(!is_one_of(l, {0, 1, 2, 10, 11, 20}), "Line with G10 does not have L0, L1, L10, L11, L2, or L20");
     if (l == 0) return INTERP_OK;
     const double p = b.value('p', -1);
-    const double whole = trunc(p + 0.5);
+    const double whole = floor(p + 0.5);
     CHECK(p - whole > TOLERANCE_INT, "P value not an integer with G10");
     if (l == 2 || l == 20)
         CHECK(whole < 0 || whole > 9, "P value out of range (0-9) with G10 L%d", l);

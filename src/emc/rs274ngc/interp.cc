@@ -5,6 +5,7 @@
  * Thread: [task]
  * Source: G-code sheet, sections 1, 2 and 10
  */
+#include <algorithm>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdlib>
@@ -157,31 +158,6 @@ void init_offsets(Setup &s)
     s.canon.SET_XY_ROTATION(s.rotation);
 }
 
-void init_modes(Setup &s)
-{
-    s.motion_mode = G_80;
-    s.distance_mode = MODE_ABSOLUTE;
-    s.ijk_distance_mode = MODE_INCREMENTAL;
-    s.feed_mode = UNITS_PER_MINUTE;
-    s.lathe_diameter = false;
-    s.active_spindle = 0;
-    s.comp_side = COMP_OFF;
-    s.comp_first_move = true;
-    s.arc_not_allowed = false;
-    s.cycle_il_flag = false;
-    s.tool_offset = EmcPose{};
-    s.g43_with_zero_offset = false;
-    s.selected_tool = 0;
-    s.probe_flag = s.input_flag = s.toolchange_flag = false;
-    s.last_g0 = s.last_g92 = s.last_stop = s.last_toolchange = -1;
-    s.sequence_number = 0;
-    s.percent_flag = false;
-    s.g7x_reading = false;
-    s.block.clear();
-    drop_comp(s);
-    nurbs_forget(s);
-}
-
 // Re-reads what the machine knows.
 void take_machine_state(Setup &s)
 {
@@ -211,6 +187,31 @@ void take_machine_state(Setup &s)
 }
 
 } // namespace
+
+void ngc::init_modes(Setup &s)
+{
+    s.motion_mode = G_80;
+    s.distance_mode = MODE_ABSOLUTE;
+    s.ijk_distance_mode = MODE_INCREMENTAL;
+    s.feed_mode = UNITS_PER_MINUTE;
+    s.lathe_diameter = false;
+    s.active_spindle = 0;
+    s.comp_side = COMP_OFF;
+    s.comp_first_move = true;
+    s.arc_not_allowed = false;
+    s.cycle_il_flag = false;
+    s.tool_offset = EmcPose{};
+    s.g43_with_zero_offset = false;
+    s.selected_tool = 0;
+    s.probe_flag = s.input_flag = s.toolchange_flag = false;
+    s.last_g0 = s.last_g92 = s.last_stop = s.last_toolchange = -1;
+    s.sequence_number = 0;
+    s.percent_flag = false;
+    s.g7x_reading = false;
+    s.block.clear();
+    drop_comp(s);
+    nurbs_forget(s);
+}
 
 int Interp::init(const InterpOptions &options)
 {
@@ -688,7 +689,7 @@ void Interp::take_state(const Interp &other)
     to.flood = from.flood;
     to.mist = from.mist;
     to.g43_with_zero_offset = from.g43_with_zero_offset;
-    to.tools = from.tools;
+    for (int i = 0; i <= std::max(to.tools_last, from.tools_last); ++i) to.tools[size_t(i)] = from.tools[size_t(i)];
     to.tools_last = from.tools_last;
     to.current_pocket = from.current_pocket;
     to.selected_pocket = from.selected_pocket;

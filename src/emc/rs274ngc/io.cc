@@ -141,6 +141,7 @@ int convert_override(Setup &s, int m)
 int convert_user_m(Setup &s)
 {
     const Block &b = s.block;
+    CHECK(!s.canon.USER_DEFINED_FUNCTION_EXISTS(b.user_m - 100), "Unknown m code used: M%d", b.user_m);
     enqueue_user_m(s, b.user_m - 100, b.value('p', -1), b.value('q', -1));
     return INTERP_OK;
 }

@@ -69,7 +69,7 @@ int convert_offset_data(Setup &s)
     const bool l20 = b['l'] == 20;
     CHECK(l20 && b.has('r'), "R not allowed in G10 L20");
     CHECK(!l20 && (b.has('i') || b.has('j')), "I J words not allowed with G10 L2");
-    int system = int(b['p']);
+    int system = int(b['p'] + TOLERANCE_INT); // the check lets fractions above one half pass
     if (system == 0) system = s.origin_index;
     CHECK(system == s.origin_index && s.comp_on(),
           "Cannot change the active coordinate system with cutter radius compensation on");

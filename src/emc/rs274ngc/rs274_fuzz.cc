@@ -5,8 +5,10 @@
  * In:     a program; a line "@NAME" begins the text of the sub file NAME.ngc. A first line
  *         "@mdi" gives the lines one by one as MDI, "@ini" runs on a machine with an INI
  *         file (wrapped and locked rotary axes, remaps by subs, peck clearances, Fanuc subs).
- * Method: with clang, tests/fuzz/rs274/build makes a libFuzzer program of it. Without, the
- *         small main() below runs files: objects/test/interp-fuzz FILE...
+ *         With KERF_FUZZ_LINES=1 every input is MDI lines; the line "@ini" alone may precede.
+ * Method: one interpreter is used for all inputs. Before each it takes over the state of one
+ *         that was never used, which takes microseconds; files are in memory (/dev/shm),
+ *         in a folder that becomes the working directory: give absolute paths.
  * Thread: main
  */
 #include <cmath>
@@ -40,7 +42,7 @@ void promise(bool kept, const char *what)
 }
 
 enum {
-    MAX_LINES = 2000,         // of one run; more is an endless loop, which the caller ends
+    MAX_LINES = 400,          // of one run; more is an endless loop, which the caller ends
     MAX_CALLS = 60 * 1000000, // of one run; no line may make more than Interp allows
     MAX_INPUT = 4096
 };
@@ -131,7 +133,7 @@ class FuzzMachine : public Canon
     bool wants_tags() const override { return metric; }
     int WAIT(int index, CANON_INPUT, CANON_WAIT wait, double) override
     {
-        promise(wait >= WAIT_MODE_IMMEDIATE && wait <= WAIT_MODE_LOW, "kinds of waiting");
+        promise(wait >= WAIT_MODE_IMMEDIATE, "kinds of waiting");
         return index >= 0 && index < 4 ? 0 : -1;
     }
     bool USER_DEFINED_FUNCTION_EXISTS(int num) override { return num < 3; }
@@ -146,6 +148,7 @@ class FuzzMachine : public Canon
     int GET_EXTERNAL_TOOL_SLOT() override { return slot; }
     int GET_EXTERNAL_SELECTED_TOOL_SLOT() override { return selected; }
     int GET_EXTERNAL_AXIS_MASK() override { return 0x1ff; }
+    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return 4; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override
     {
         CANON_TOOL_TABLE t = tooldata_entry_init();
@@ -172,12 +175,34 @@ class FuzzMachine : public Canon
     }
 };
 
+/// An interpreter for all inputs, and one that stays as it was at the start.
+class Pair
+{
+  public:
+    explicit Pair(FuzzMachine &machine) : used(machine), fresh(machine) {}
+    void init(const InterpOptions &options)
+    {
+        if (used.init(options) != INTERP_OK || fresh.init(options) != INTERP_OK) broken("init");
+    }
+    Interp &as_new()
+    {
+        used.reset();
+        ngc::init_modes(used.setup());
+        used.take_state(fresh);
+        return used;
+    }
+
+  private:
+    Interp used, fresh;
+};
+
 /// Everything that lives as long as the process.
 struct Bench {
     FuzzMachine machine;
-    Interp plain{machine}, configured{machine};
+    Pair plain{machine}, configured{machine};
     std::string folder;
     std::vector<std::string> files;
+    const bool lines_only = getenv("KERF_FUZZ_LINES");
 
     Bench()
     {
@@ -190,10 +215,16 @@ struct Bench {
                                      "REMAP=G88.1 modalgroup=1 argspec=XYzr ngc=remapg\nREMAP=M6 modalgroup=6 ngc=remapt\n"
                                      "REMAP=S ngc=remaps\nON_ABORT_COMMAND=O<remapm> call\n"
                                      "[AXIS_A]\nWRAPPED_ROTARY=1\n[AXIS_B]\nLOCKING_INDEXER_JOINT=4\n";
-        std::ofstream("remapm.ngc") << "o<remapm> sub\n(print,#<p> #<n_args>)\nG1 X1 F9\no<remapm> endsub [3]\n";
-        std::ofstream("remapg.ngc") << "o<remapg> sub\nG0 X#<x> Y#<y>\nG91\no<remapg> endsub\n";
-        std::ofstream("remapt.ngc") << "o<remapt> sub\nM73\nG53 G0 Z1\nM6\nG43\no<remapt> endsub\n";
-        std::ofstream("remaps.ngc") << "o<remaps> sub\nM3\no<remaps> endsub\n";
+        write("remapm.ngc", "o<remapm> sub\n(print,#<p> #<n_args>)\nG1 X1 F9\no<remapm> endsub [3]\n");
+        write("remapg.ngc", "o<remapg> sub\nG0 X#<x> Y#<y>\nG91\no<remapg> endsub\n");
+        write("remapt.ngc", "o<remapt> sub\nM73\nG53 G0 Z1\nM6\nG43\no<remapt> endsub\n");
+        write("remaps.ngc", "o<remaps> sub\nM3\no<remaps> endsub\n");
+        machine.reset(false);
+        plain.init(InterpOptions());
+        machine.reset(true);
+        InterpOptions with_ini;
+        with_ini.ini_file = "fuzz.ini";
+        configured.init(with_ini);
     }
     ~Bench()
     {
@@ -291,7 +322,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size > MAX_INPUT) return 0;
     Bench &b = bench();
     std::string_view text(reinterpret_cast<const char *>(data), size);
-    bool mdi = false, with_ini = false;
+    bool mdi = b.lines_only, with_ini = false;
     for (;;) {
         if (text.substr(0, 5) == "@mdi\n") mdi = true;
         else if (text.substr(0, 5) == "@ini\n") with_ini = true;
@@ -312,37 +343,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     b.machine.reset(with_ini);
     b.machine.block_delete = size % 2;
-    Interp &interp = with_ini ? b.configured : b.plain;
-    InterpOptions options;
-    if (with_ini) options.ini_file = "fuzz.ini";
-    if (interp.init(options) != INTERP_OK) broken("init");
+    Interp &interp = (with_ini ? b.configured : b.plain).as_new();
     if (mdi) {
         interp.set_mdi_slice(50);
         run_mdi(interp, text);
     } else {
         b.write("main.ngc", text);
         run_program(interp, "main.ngc");
-        unlink("main.ngc");
     }
     interp.reset();
     return 0;
 }
-
-#ifndef KERF_LIBFUZZER
-int main(int argc, char **argv)
-{
-    std::vector<std::string> inputs;
-    for (int i = 1; i < argc; ++i) {
-        std::ifstream f(argv[i], std::ios::binary);
-        if (!f) {
-            fprintf(stderr, "cannot read %s\n", argv[i]);
-            return 1;
-        }
-        inputs.emplace_back(std::istreambuf_iterator<char>(f), std::istreambuf_iterator<char>());
-    }
-    for (const std::string &text : inputs)
-        LLVMFuzzerTestOneInput(reinterpret_cast<const uint8_t *>(text.data()), text.size());
-    printf("%zu files kept the promises\n", inputs.size());
-    return 0;
-}
-#endif

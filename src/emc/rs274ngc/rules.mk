@@ -7,8 +7,7 @@ $(eval $(call program,rs274,src/emc/rs274ngc/rs274_main.cc src/emc/canon/printer
 # Python inside the interpreter; loaded only when an INI asks for it.
 PYPLUGIN_SOURCES := $(wildcard src/emc/rs274ngc/pyplugin/*.cc)
 $(eval $(call library,pyplugin,0,$(PYPLUGIN_SOURCES),rs274 tooldata linuxcncini $(PYTHON_LIBS),-Isrc/emc/rs274ngc $(PYTHON_CPPFLAGS)))
-# Unit tests, run by tests/rs274/unit-tests-of-the-interpreter, and the inputs of tests/fuzz/rs274,
-# run by tests/rs274/fuzz-corpus-keeps-promises: objects/test/interp-NAME of rs274_NAME.cc.
+# Unit tests, run by tests/rs274/unit-tests-of-the-interpreter: objects/test/interp-NAME of rs274_NAME.cc.
 define interp_test
 $(call objs,ul,src/emc/rs274ngc/rs274_$(1).cc): EXTRA += -Isrc/emc/rs274ngc
 DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/rs274ngc/rs274_$(1).cc))
@@ -17,7 +16,7 @@ $(O)/test/interp-$(1): $(call objs,ul,src/emc/rs274ngc/rs274_$(1).cc) $(T)/lib/l
 	$$(call say,LINK,$$@)
 	$$(Q)mkdir -p $$(@D) && $$(CXX) $$(SAN) $$(LDFLAGS) -o $$@ $$< -L$(T)/lib -lrs274 -ltooldata -llinuxcncini -Wl,-rpath,'$$$$ORIGIN/../../lib'
 endef
-$(foreach t,unit stages fuzz,$(eval $(call interp_test,$(t))))
+$(foreach t,unit stages,$(eval $(call interp_test,$(t))))
 # Measurements, part of `make bench`.
 .PHONY: bench-rs274
 bench-rs274: all

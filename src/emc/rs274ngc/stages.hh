@@ -26,7 +26,8 @@ void fill_fault_place(Setup &s);
 [[nodiscard]] int read_parameter_name(Setup &s, std::string_view *name);
 [[nodiscard]] int to_integer(Setup &s, double value, int *result);
 
-// ---- interp.cc: the next line of the program -> block (empty when it is skipped) ---------
+// ---- interp.cc: modes as at the start; the next line of the program -> block (empty when it is skipped)
+void init_modes(Setup &s);
 [[nodiscard]] int read_next_block(Setup &s);
 /// Executes a line in the middle of a block, with all that it calls (for Python's self.execute()).
 [[nodiscard]] int run_inner(Setup &s, const char *text);

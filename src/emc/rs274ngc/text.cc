@@ -38,6 +38,7 @@ constexpr CharTable chars;
 
 int take_line(Setup &s, std::string_view line)
 {
+    line = line.substr(0, line.find('\0')); // nothing stands behind a NUL
     size_t raw_length = std::min(line.size(), sizeof s.raw - 1);
     memcpy(s.raw, line.data(), raw_length);
     s.raw[raw_length] = 0;
@@ -60,10 +61,6 @@ int take_line(Setup &s, std::string_view line)
                 s.pos = int(out - s.text);
                 *out = 0;
                 FAIL("Null missing after newline");
-            }
-            if (c == 0) {
-                in = end;
-                continue;
             }
             *out++ = chars.lower[c];
             ++in;

@@ -24,8 +24,10 @@ int tool_index(const Setup &s, int toolno)
 
 void load_tool_table(Setup &s)
 {
+    const int end = std::min(s.canon.GET_EXTERNAL_TOOL_TABLE_LAST() + 1, int(CANON_POCKETS_MAX));
+    for (int i = end; i <= s.tools_last; ++i) s.tools[size_t(i)] = tooldata_entry_init();
     s.tools_last = 0;
-    for (int i = 0; i < CANON_POCKETS_MAX; ++i) {
+    for (int i = 0; i < end; ++i) {
         s.tools[size_t(i)] = s.canon.GET_EXTERNAL_TOOL_TABLE(i);
         if (s.tools[size_t(i)].toolno != -1) s.tools_last = i;
     }
@@ -244,7 +246,7 @@ int convert_tool_data(Setup &s)
         s.toolchange_flag = true;
         return INTERP_OK;
     }
-    const int toolno = int(b['p']);
+    const int toolno = int(std::min(floor(b['p'] + 0.5), 2e9));
     int idx;
     TRY(find_tool(s, toolno, &idx));
     CHECK(!b.any_axis() && !(b.present & word_bits("rijq")), "G10 L1 without offsets has no effect");

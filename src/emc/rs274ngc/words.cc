@@ -88,8 +88,7 @@ int read_m(Setup &s, Block &b)
         CHECK(b.m_modes[group] != -1, "Two m codes used from same modal group");
     } else {
         CHECK(value > 199, "M-code greater than 199: M%d", value);
-        CHECK(group < 0 || (group == MM_USER && !s.canon.USER_DEFINED_FUNCTION_EXISTS(value - 100)),
-              "Unknown m code used: M%d", value);
+        CHECK(group < 0, "Unknown m code used: M%d", value);
         CHECK(b.m_modes[group] != -1, "Two m codes used from same modal group");
     }
     b.m_modes[group] = int16_t(value);

@@ -164,6 +164,7 @@ public:
     int GET_EXTERNAL_TOOL_SLOT() override;
     int GET_EXTERNAL_SELECTED_TOOL_SLOT() override { return stat_->io.tool.pocketPrepped; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override;
+    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return tooldata_last_index_get(); }
     int GET_EXTERNAL_TC_FAULT() override { return stat_->io.fault; }
     int GET_EXTERNAL_TC_REASON() override { return stat_->io.reason; }
     bool GET_EXTERNAL_FEED_OVERRIDE_ENABLE() override { return stat_->motion.traj.feed_override_enabled; }
