@@ -35,7 +35,8 @@ class CheckCanon final : public Canon
     std::string parameters;
     std::vector<CANON_TOOL_TABLE> tools;
     int selected = 0;
-    bool used_inch = false, used_mm = false, moved = false, chosen_units = false;
+    bool moved = false, chosen_units = false;
+    std::function<void()> units_changed; ///< after a move in the other unit
     // Machine limits by axis, machine units.
     double low[AXES], high[AXES];
     bool have_limits = false;
@@ -49,6 +50,7 @@ class CheckCanon final : public Canon
     std::string GET_EXTERNAL_PARAMETER_FILE_NAME() override { return parameters; }
     CANON_PLANE GET_EXTERNAL_PLANE() override { return plane; }
     double GET_EXTERNAL_FEED_RATE() override { return feed; }
+    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return int(tools.size()) - 1; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override
     {
         return size_t(idx) < tools.size() ? tools[size_t(idx)] : tooldata_entry_init();
@@ -72,11 +74,9 @@ class CheckCanon final : public Canon
     }
     void USE_LENGTH_UNITS(CANON_UNITS u) override
     {
-        if (running) {
-            chosen_units = true;
-            (u == CANON_UNITS_INCHES ? used_inch : used_mm) = true;
-        }
+        if (running) chosen_units = true;
         if (u == units) return;
+        if (running && moved) units_changed();
         const double factor = u == CANON_UNITS_INCHES ? 1 / MM_PER_INCH : MM_PER_INCH;
         for (EmcPose *p : {&position, &g5x, &g92, &tool_offset})
             for (int i = 0; i < AXES; ++i)
@@ -142,6 +142,7 @@ struct Checker {
     std::vector<bool> reached; // lines of the program, from 1
     std::set<std::pair<int, std::string>> known; // line and text: said once
     int program_end = 0;       // line of the M2 that was executed last
+    bool feed_missing = false, units_mixed = false, has_sub = false, only_subs = true; // so far
 
     Checker(const std::string &f, const CheckOptions &o) : file(f), options(o) {}
 
@@ -230,7 +231,9 @@ struct Checker {
         Setup &s = interp.setup();
         const Block &b = s.block;
         if (b.o_type != O_NONE || !s.skipping.empty()) return;
-        if (b.motion == G_0 && s.comp_on() && s.comp_radius > 0 && b.g_modes[GM_COMP] != G_40 && b.any_axis())
+        const ArcPlane &p = arc_plane(s.plane);
+        if (b.motion == G_0 && s.comp_on() && s.comp_radius > 0 && b.g_modes[GM_COMP] != G_40 &&
+            (b.has_axis(p.first) || b.has_axis(p.second)))
             warn("G0 while cutter compensation is on", "the corner is cut at rapid speed; use G1, or G40 first");
         const int g0 = b.g_modes[GM_MODAL_0];
         if ((g0 == G_28_1 || g0 == G_30_1) && b.any_axis())
@@ -240,6 +243,29 @@ struct Checker {
         if (b.motion >= G_1 && b.motion != G_80 && b.any_axis() && !canon.chosen_units && !canon.moved &&
             b.g_modes[GM_UNITS] == -1)
             warn("a feed move before any G20 or G21", "the units depend on what ran before; begin the program with G20 or G21");
+    }
+
+    // No feed rate at all is said once; the check goes on with one, for what follows would fail in its wake.
+    void look_at_feed()
+    {
+        Setup &s = interp.setup();
+        const Block &b = s.block;
+        const char *what = b.motion == G_1                             ? "Cannot do g1 with zero feed rate"
+                           : b.motion == G_2 || b.motion == G_3        ? "Cannot make arc with zero feed rate"
+                           : b.motion >= G_38_2 && b.motion <= G_38_5  ? "Cannot probe with zero feed rate"
+                           : is_drill_cycle(b.motion)                  ? "Cannot feed with zero feed rate"
+                                                                       : nullptr;
+        const int g = b.g_modes[GM_FEED];
+        const bool per_minute = g >= 0 ? g == G_94 : s.feed_mode == UNITS_PER_MINUTE;
+        if (!what || !per_minute || b.o_type != O_NONE || !s.skipping.empty()) return;
+        if (b.has('f') ? b['f'] != 0 : s.feed_rate != 0) return;
+        if (!feed_missing) {
+            warn(what, "set a feed rate with F on this line or before it");
+            findings.back().severity = Finding::ERROR;
+        }
+        feed_missing = true;
+        if (b.has('f')) s.block.set('f', 1);
+        else s.feed_rate = 1;
     }
 
     void look_at_arc(Setup &s, const Block &b)
@@ -285,6 +311,9 @@ struct Checker {
             if (status == INTERP_ENDFILE) return;
             if (status == INTERP_OK) {
                 look_at_block();
+                look_at_feed();
+                if (s.block.o_type == O_SUB) has_sub = true;
+                if (s.block.o_type == O_NONE && s.skipping.empty() && s.block.any_word) only_subs = false;
                 status = interp.execute();
                 if (status == INTERP_EXIT) {
                     program_end = interp.sequence_number();
@@ -295,7 +324,7 @@ struct Checker {
                 Fault f = interp.fault();
                 if (f.what.find("File ended with") == 0) {
                     f.column = 0;
-                    add(Finding::ERROR, f);
+                    if (!only_subs || !has_sub) add(Finding::ERROR, f); // a file of subs needs no end
                     return;
                 }
                 add(Finding::ERROR, f);
@@ -398,28 +427,41 @@ struct Checker {
             add(Finding::ERROR, f);
             return;
         }
+        canon.units_changed = [this] {
+            if (!units_mixed) warn("the program uses both G20 and G21", "sure? A part is usually written in one unit");
+            units_mixed = true;
+        };
         run();
         read_the_rest();
-        if (canon.used_inch && canon.used_mm) {
-            Fault f;
-            f.file = file;
-            f.what = "the program uses both G20 and G21";
-            f.fix = "sure? A part is usually written in one unit";
-            add(Finding::WARNING, f);
-        }
     }
 };
+
+bool is_utf8(const std::string &text)
+{
+    int more = 0;
+    for (unsigned char c : text) {
+        if (more > 0) {
+            if ((c & 0xc0) != 0x80) return false;
+            --more;
+        } else if (c >= 0x80) {
+            more = c >= 0xc2 && c < 0xe0 ? 1 : c >= 0xe0 && c < 0xf0 ? 2 : c >= 0xf0 && c < 0xf5 ? 3 : -1;
+            if (more < 0) return false;
+        }
+    }
+    return more == 0;
+}
 
 std::string json_text(const std::string &text)
 {
     std::string out = "\"";
+    const bool utf8 = is_utf8(text); // else the bytes are taken for Latin-1
     for (unsigned char c : text) {
         if (c == '"' || c == '\\') {
             out += '\\';
             out += char(c);
         } else if (c == '\n') {
             out += "\\n";
-        } else if (c < 0x20 || c >= 0x7f) {
+        } else if (c < 0x20 || c == 0x7f || (c >= 0x80 && !utf8)) {
             char buf[8];
             snprintf(buf, sizeof buf, "\\u%04x", c);
             out += buf;

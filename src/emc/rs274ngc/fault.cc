@@ -196,6 +196,7 @@ const Remedy remedies[] = {
     {"Current point same as end point", "a full circle needs I J K in place of R"},
     {"Cannot use axis values without", "give a motion code: G0, G1, G2 or G3"},
     {"Unknown g code", "check the number; G codes with one decimal are written G5.1"},
+    {"M-code greater than 199", "such codes exist only as remaps: give the machine's INI file ([RS274NGC]REMAP)"},
     {"G-code out of range", "G codes are 0 to 99.9 with at most one decimal"},
     {"Two g codes used", "put them on two lines"},
     {"Two m codes used", "put them on two lines"},

@@ -318,7 +318,7 @@ void checks_find_what_is_wrong_without_a_machine() // FP-104
     std::string all;
     for (const Finding &f : found)
         all += std::to_string(f.fault.line) + (f.severity == Finding::ERROR ? "E " : "W ") + f.fault.what + "\n";
-    EXPECT(all == "0W the program uses both G20 and G21\n"
+    EXPECT(all == "3W the program uses both G20 and G21\n"
                   "6E Multiple x words on one line\n"
                   "7E Requested tool 5 not found in the tool table\n"
                   "9W never executed: the program ends in line 8\n");
