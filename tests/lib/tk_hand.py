@@ -114,3 +114,34 @@ class Hand:
         yield
         for button in waiting:
             print(f"no box for {button}")
+
+
+TEXTS = ("TLabel", "TButton", "TCheckbutton", "TRadiobutton", "Label", "Button", "Checkbutton", "Radiobutton")
+
+
+def clipped(window):
+    """Texts of a window (or of the windows above it) that have less room than they need, or are out of sight."""
+    found = []
+
+    def look(widget, within):
+        for child in widget.winfo_children():
+            if not child.winfo_ismapped():
+                continue
+            outer = within
+            if child.winfo_class() in ("Toplevel", "Dialog"):
+                outer = child
+            elif child.winfo_class() == "Canvas":
+                outer = None            # scrolls
+            if child.winfo_class() in TEXTS:
+                short = child.winfo_reqwidth() > child.winfo_width() + 1 or child.winfo_reqheight() > child.winfo_height() + 1
+                out = outer and (child.winfo_rootx() + child.winfo_width() > outer.winfo_rootx() + outer.winfo_width() + 1
+                                 or child.winfo_rooty() + child.winfo_height() > outer.winfo_rooty() + outer.winfo_height() + 1)
+                if short or out:
+                    found.append(f"{child.winfo_class()} {str(child.cget('text'))!r} {'needs' if short else 'is out of sight,'} "
+                                 f"{child.winfo_reqwidth()}x{child.winfo_reqheight()} has {child.winfo_width()}x{child.winfo_height()}")
+            look(child, outer)
+    look(window, window)
+    screen = window.winfo_screenwidth(), window.winfo_screenheight()
+    if window.winfo_width() > screen[0] or window.winfo_height() > screen[1]:
+        found.append(f"{window.title()} is larger than the screen")
+    return found

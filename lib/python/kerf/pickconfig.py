@@ -4,13 +4,12 @@
 Cancel prints nothing. What can be picked and how it is copied is in `kerf.configs`.
 """
 
-import os
 import sys
 import tkinter as tk
 from pathlib import Path
 from tkinter import messagebox, ttk
 
-from . import configs
+from . import configs, tkstyle
 from .tree import Tree
 
 WELCOME = ("Pick the configuration of your machine and press OK.\n"
@@ -24,21 +23,23 @@ class Picker:
         self.root, self.tree, self.chosen = root, tree, None
         self.roots = configs.search_path(tree)
         self.paths = {}
-        root.title("Pick a configuration")
-        root.geometry("780x480")
-        root.minsize(560, 360)
-        ttk.Style(root).theme_use("clam")
-        head = ttk.Label(root, text=WELCOME, padding=8)
+        style = self.style = tkstyle.apply(root)
+        px = style.px
+        root.title("LinuxCNC Configuration Selector")
+        tkstyle.centre(root, px(780), px(480), (px(480), px(320)))
+        head = ttk.Frame(root, padding=px(8))
         head.pack(fill="x")
-        buttons = ttk.Frame(root, padding=8)
+        self.logo(head).pack(side="left", padx=(0, px(10)))
+        ttk.Label(head, text=WELCOME).pack(side="left")
+        buttons = ttk.Frame(root, padding=px(8))
         buttons.pack(side="bottom", fill="x")
         self.shortcut = tk.BooleanVar(root, False)
         ttk.Checkbutton(buttons, text="Create a shortcut on the desktop", variable=self.shortcut).pack(side="left")
-        ttk.Button(buttons, text="Cancel", command=root.destroy).pack(side="right", padx=(8, 0))
+        ttk.Button(buttons, text="Cancel", command=root.destroy).pack(side="right", padx=(px(8), 0))
         self.ok = ttk.Button(buttons, text="OK", command=self.accept, state="disabled")
         self.ok.pack(side="right")
         panes = ttk.PanedWindow(root, orient="horizontal")
-        panes.pack(fill="both", expand=True, padx=8)
+        panes.pack(fill="both", expand=True, padx=px(8))
         self.list = self.make_list(panes)
         self.picture, self.text = self.make_details(panes)
         for folder in self.roots:
@@ -48,9 +49,22 @@ class Picker:
         self.list.bind("<<TreeviewSelect>>", lambda event: self.show())
         for key in ("<Return>", "<KP_Enter>", "<Double-1>"):
             self.list.bind(key, self.accept)
+        for key in ("<Return>", "<KP_Enter>"):
+            root.bind(key, self.accept)
         root.bind("<Escape>", lambda event: root.destroy())
         self.list.focus_set()
         self.show()
+
+    def logo(self, parent):
+        """A tool on its way through a workpiece."""
+        px, colours = self.style.px, self.style.colours
+        size = px(44)
+        picture = tk.Canvas(parent, width=size, height=size, highlightthickness=0, background=colours["face"])
+        picture.create_rectangle(0, px(14), size, size, fill=colours["select"], width=0)
+        picture.create_line(px(6), px(36), px(18), px(24), px(26), px(32), px(38), px(20), fill=colours["face"], width=px(6), capstyle="round",
+                            joinstyle="round")
+        picture.create_polygon(px(34), px(2), px(42), px(2), px(42), px(14), px(38), px(20), px(34), px(14), fill=colours["ink"])
+        return picture
 
     @staticmethod
     def make_list(panes):
@@ -63,15 +77,13 @@ class Picker:
         tree.pack(fill="both", expand=True)
         return tree
 
-    @staticmethod
-    def make_details(panes):
+    def make_details(self, panes):
         box = ttk.Frame(panes)
         panes.add(box, weight=3)
         picture = ttk.Label(box, anchor="center")
-        picture.pack(fill="x")
-        bar = ttk.Scrollbar(box)
-        text = tk.Text(box, wrap="word", width=40, height=10, state="disabled", relief="flat", padx=8, pady=8, font="TkDefaultFont",
-                       yscrollcommand=bar.set)
+        bar = self.bar = ttk.Scrollbar(box)
+        text = tk.Text(box, wrap="word", width=40, height=10, state="disabled", relief="flat", padx=self.style.px(8), pady=self.style.px(8),
+                       font="TkDefaultFont", yscrollcommand=bar.set)
         bar.configure(command=text.yview)
         bar.pack(side="right", fill="y")
         text.pack(fill="both", expand=True)
@@ -106,7 +118,13 @@ class Picker:
             self.image = tk.PhotoImage(file=str(picture)) if picture else ""
         except tk.TclError:
             self.image = ""
+        if self.image and self.image.height() > (most := self.style.px(200)):
+            self.image = self.image.subsample(-(-self.image.height() // most))
         self.picture.configure(image=self.image)
+        if self.image:
+            self.picture.pack(side="top", fill="x", before=self.bar)
+        else:
+            self.picture.pack_forget()
         self.ok.configure(state="normal" if path and configs.usable(path) else "disabled")
 
     def accept(self, event=None):
@@ -131,10 +149,7 @@ class Picker:
 
 
 def main(argv=()):
-    if not os.environ.get("DISPLAY"):
-        print("pickconfig: no display (DISPLAY is not set)", file=sys.stderr)
-        return 1
-    root = tk.Tk(className="Pickconfig")
+    root = tkstyle.open_display("pickconfig", "Pickconfig")
     picker = Picker(root, Tree.find(), Path(argv[0]) if argv else None)
     root.mainloop()
     if picker.chosen:

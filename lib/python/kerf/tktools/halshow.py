@@ -101,6 +101,7 @@ class Window:
     def __init__(self, root, prefs, real="", integer=""):
         self.root, self.prefs, self.file, self.timer = root, prefs, None, None
         root.tk.eval(f"lappend auto_path {{{Tree.find().tcl}}}; package require Hal")
+        root.bind("<Destroy>", lambda event: event.widget is root and root.tk.call("hal", "--leave"))
         self.style = tkstyle.apply(root)
         self.formats = watch.Formats(real or prefs.text("ffmts"), integer or prefs.text("ifmts"))
         self.interval = prefs.integer("watchInterval", 1)

@@ -4,6 +4,7 @@
  *
  *   hal CMD ?args?    a command of halcmd; its output is the result, its complaint the error
  *   hal --commands    names of all commands
+ *   hal --leave       gives back the component; the next command takes a new one
  *   hal_stream ...    reads and inspects HAL streams (attach depth maxdepth readable read drain detach)
  *
  * Thread: [task], one session per interpreter. Source: HAL tools reference, section 4.
@@ -103,6 +104,10 @@ int hal_command(ClientData data, Tcl_Interp *interp, int argc, Tcl_Obj *const ar
     }
     const std::string first = Tcl_GetString(argv[1]);
     if (argc == 2 && first == "--commands") return command_names(interp);
+    if (argc == 2 && first == "--leave") {
+        state.session.leave();
+        return TCL_OK;
+    }
     if (argc == 3 && first == "--join") return join_clock(state, Tcl_GetString(argv[2]));
     if (argc == 3 && first == "--sleep") {
         Tcl_WideInt ms;
