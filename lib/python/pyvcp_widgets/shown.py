@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Widgets that show a pin: led, rectled, number, u32, s32, timer, bar, meter, image_bit, image_u32."""
+
+import math
+import sys
+import time
+import tkinter as tk
+
+import hal
+
+from .base import Follower
+
+SWEEP_RAD = 5.0         # of a meter's needle
+
+
+class Lamp(tk.Canvas):
+    """A coloured shape; grey when its pin disable is TRUE."""
+
+    def make(self, panel, halpin, on_color, off_color, disable_pin, disabled_color):
+        self.colors = off_color, on_color
+        self.disabled_color = disabled_color
+        name = panel.default(halpin, "led")
+        self.pin = panel.new(name, hal.HAL_BIT, hal.HAL_IN)
+        self.disable = panel.new(name + ".disable", hal.HAL_BIT, hal.HAL_IN) if disable_pin else None
+        self.shown = None
+        self.follow()
+
+    def follow(self):
+        off = self.disable is not None and self.disable.get()
+        color = self.disabled_color if off else self.colors[self.pin.get()]
+        if color != self.shown:
+            self.shown = color
+            self.itemconfigure("lamp", fill=color)
+
+
+class Led(Lamp):
+    def __init__(self, master, panel, halpin=None, size=20, on_color="green", off_color="red", disable_pin=False,
+                 disabled_color="gray80", **options):
+        super().__init__(master, width=size, height=size, **({"bd": 0, "highlightthickness": 0} | options))
+        self.create_oval(1, 1, size - 1, size - 1, tags="lamp")
+        self.make(panel, halpin, on_color, off_color, disable_pin, disabled_color)
+
+
+class Rectled(Lamp):
+    def __init__(self, master, panel, halpin=None, height=10, width=30, on_color="green", off_color="red", disable_pin=False,
+                 disabled_color="gray80", **options):
+        super().__init__(master, width=width, height=height, **({"bd": 0, "highlightthickness": 0} | options))
+        self.create_rectangle(1, 1, width - 1, height - 1, tags="lamp")
+        self.make(panel, halpin, on_color, off_color, disable_pin, disabled_color)
+
+
+class Number(tk.Label):
+    kind, pattern = hal.HAL_FLOAT, "2.1f"
+
+    def __init__(self, master, panel, halpin=None, format=None, **options):
+        super().__init__(master, **options)
+        self.pattern = format if format is not None else type(self).pattern
+        self.text(self.kind == hal.HAL_FLOAT and 0.0 or 0)      # a wrong format is told when the panel is made
+        self.value = Follower(panel.new(panel.default(halpin, "number"), self.kind, hal.HAL_IN))
+        self.follow()
+
+    def text(self, value):
+        return ("%" + str(self.pattern).lstrip("%")) % value
+
+    def follow(self):
+        if (value := self.value.changed()) is not None:
+            self.configure(text=self.text(value))
+
+
+class U32(Number):
+    kind, pattern = hal.HAL_U32, "d"
+
+
+class S32(Number):
+    kind, pattern = hal.HAL_S32, "d"
+
+
+class Timer(tk.Label):
+    """Hours, minutes and seconds that run was TRUE; a rising reset begins anew."""
+
+    def __init__(self, master, panel, halpin=None, **options):
+        super().__init__(master, **options)
+        name = panel.default(halpin, "timer")
+        self.reset = panel.new(name + ".reset", hal.HAL_BIT, hal.HAL_IN)
+        self.run = panel.new(name + ".run", hal.HAL_BIT, hal.HAL_IN)
+        self.was_reset, self.seconds, self.since = False, 0.0, None
+        self.show()
+
+    def now(self):
+        return time.monotonic()
+
+    def follow(self):
+        now, run, reset = self.now(), self.run.get(), self.reset.get()
+        if self.since is not None:
+            self.seconds += now - self.since
+        self.since = now if run else None
+        if reset and not self.was_reset:
+            self.seconds = 0.0
+        self.was_reset = reset
+        self.show()
+
+    def show(self):
+        whole = int(self.seconds)
+        text = f"{whole // 3600:02d}:{whole // 60 % 60:02d}:{whole % 60:02d}"
+        if self["text"] != text:
+            self.configure(text=text)
+
+
+class Bar(tk.Canvas):
+    """A bar from the left edge, or from 0, with its number. Colours of ranges: (low, high, colour), all three or none."""
+
+    def __init__(self, master, panel, halpin=None, min_=0, max_=100, fillcolor="green", bgcolor="grey", range1=None, range2=None,
+                 range3=None, canvas_width=200, canvas_height=50, bar_height=30, bar_width=150, format="3.1f", **options):
+        super().__init__(master, width=canvas_width, height=canvas_height, **options)
+        if not max_ > min_:
+            raise ValueError(f"max_ ({max_}) must be above min_ ({min_})")
+        self.low, self.high, self.pattern = float(min_), float(max_), "%" + str(format).lstrip("%")
+        self.fillcolor, self.ranges = fillcolor, (range1, range2, range3) if range1 and range2 and range3 else ()
+        self.x, self.y, self.wide, self.tall = (canvas_width - bar_width) / 2, 5, bar_width, bar_height
+        self.create_rectangle(self.x, self.y, self.x + bar_width, self.y + bar_height, fill=bgcolor)
+        self.create_rectangle(0, 0, 0, 0, fill=fillcolor, width=0, tags="bar")
+        below = self.y + bar_height + 8
+        self.create_text(self.x, below, text=f"{min_}")
+        self.create_text(self.x + bar_width, below, text=f"{max_}")
+        self.create_text(self.x + bar_width / 2, self.y + bar_height / 2, tags="number")
+        self.value = Follower(panel.new(panel.default(halpin, "bar"), hal.HAL_FLOAT, hal.HAL_IN))
+        self.follow()
+
+    def position(self, value):
+        value = min(max(value, self.low), self.high) if value == value else self.low
+        return self.x + self.wide * (value - self.low) / (self.high - self.low)
+
+    def color(self, value):
+        for low, high, color in self.ranges:
+            if low < value <= high:
+                return color
+        return self.fillcolor
+
+    def follow(self):
+        if (value := self.value.changed()) is None:
+            return
+        self.coords("bar", self.position(0), self.y, self.position(value), self.y + self.tall)
+        self.itemconfigure("bar", fill=self.color(value))
+        self.itemconfigure("number", text=self.pattern % value)
+
+
+class Meter(tk.Canvas):
+    def __init__(self, master, panel, halpin=None, size=200, text=None, subtext=None, min_=0, max_=100, majorscale=None,
+                 minorscale=0, region1=None, region2=None, region3=None, **options):
+        super().__init__(master, width=size, height=size, **options)
+        if not max_ > min_:
+            raise ValueError(f"max_ ({max_}) must be above min_ ({min_})")
+        self.low, self.high, self.middle = float(min_), float(max_), size / 2
+        self.radius = size / 2 - 6
+        self.create_oval(6, 6, size - 6, size - 6, fill="white")
+        for region in (region1, region2, region3):
+            if region:
+                self.arc(*region)
+        # an odd scale (0, below 0, thousands of lines) gives none rather than a hang
+        for scale, long in ((minorscale, 0.06), (majorscale if majorscale else (self.high - self.low) / 10, 0.12)):
+            if scale and scale > 0 and (self.high - self.low) / scale <= 1000:
+                for n in range(int((self.high - self.low) / scale + 1e-9) + 1):
+                    self.mark(self.low + n * scale, long)
+        for where, what, big in ((0.62, text, 8), (0.74, subtext, 6)):
+            if what:
+                self.create_text(self.middle, self.middle * 2 * where, text=what, font=("Helvetica", max(int(size / 200 * big) + 4, 6)))
+        self.create_line(0, 0, 0, 0, width=3, fill="red", tags="needle")
+        self.create_oval(self.middle - 5, self.middle - 5, self.middle + 5, self.middle + 5, fill="black")
+        self.create_text(self.middle, size * 0.86, tags="number")
+        self.value = Follower(panel.new(panel.default(halpin, "meter", ".value"), hal.HAL_FLOAT, hal.HAL_IN))
+        self.follow()
+
+    def angle(self, value):
+        """From the positive x axis, against the clock: the sweep is open at the bottom."""
+        value = min(max(value, self.low), self.high) if value == value else self.low
+        return math.pi / 2 + SWEEP_RAD / 2 - SWEEP_RAD * (value - self.low) / (self.high - self.low)
+
+    def at(self, angle, radius):
+        return self.middle + radius * math.cos(angle), self.middle - radius * math.sin(angle)
+
+    def arc(self, low, high, color):
+        start, end = self.angle(high), self.angle(low)
+        edge = 6 + self.radius * 0.06
+        size = self.middle * 2
+        self.create_arc(edge, edge, size - edge, size - edge, start=math.degrees(start), extent=math.degrees(end - start),
+                        outline=color, style="arc", width=self.radius * 0.1)
+
+    def mark(self, value, long):
+        angle = self.angle(value)
+        self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * (1 - long)), width=2 if long > 0.1 else 1)
+        if long > 0.1:
+            self.create_text(*self.at(angle, self.radius * 0.76), text=f"{value:g}", font=("Helvetica", max(int(self.middle / 12), 6)))
+
+    def follow(self):
+        if (value := self.value.changed()) is None:
+            return
+        self.coords("needle", self.middle, self.middle, *self.at(self.angle(value), self.radius * 0.9))
+        self.itemconfigure("number", text=f"{value:g}" if abs(value) < 1e6 else f"{value:.3g}")
+
+
+class ImageBit(tk.Label):
+    """The image whose number the pin says."""
+    kind = hal.HAL_BIT
+
+    def __init__(self, master, panel, halpin=None, images=(), **options):
+        super().__init__(master, **options)
+        names = images.split() if isinstance(images, str) else list(images)
+        try:
+            self.images = [panel.images[name] for name in names]
+        except KeyError as error:
+            raise ValueError(f"no image {error}: <image name=... file=.../> must stand before") from None
+        self.name = panel.default(halpin, "number")
+        self.value = Follower(panel.new(self.name, self.kind, hal.HAL_IN))
+        self.follow()
+
+    def follow(self):
+        if (value := self.value.changed()) is None:
+            return
+        if int(value) >= len(self.images):
+            print(f"Unknown image #{int(value)} on {self.name}", file=sys.stderr)
+        else:
+            self.configure(image=self.images[int(value)])
+
+
+class ImageU32(ImageBit):
+    kind = hal.HAL_U32

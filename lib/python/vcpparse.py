@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Makes a panel of widgets with HAL pins from an XML file (PyVCP).
+
+    vcpparse.filename = "panel.xml"
+    vcpparse.create_vcp(frame, component)       # then component.ready()
+
+Mistakes in the file end the program (SystemExit) with a text that names file and line.
+"""
+
+import os
+import tkinter
+import tkinter.constants
+from xml.parsers import expat
+
+import hal
+import pyvcp_widgets
+
+POLL_MS = 100
+EVALUATED = "{[(\"'"       # an attribute that begins with one of these is a Python expression
+
+filename = None             # of the next create_vcp()
+
+
+class Element:
+    """An element of the file: name, attributes, text, children, and the line where it begins."""
+
+    def __init__(self, name, attributes, line):
+        self.name, self.attributes, self.line = name, attributes, line
+        self.text, self.children = "", []
+
+
+class NoPanel(Exception):
+    """The file has no element pyvcp."""
+
+
+def read(path):
+    """The element pyvcp of a file. Raises OSError, NoPanel, and SystemExit where the XML is broken."""
+    parser = expat.ParserCreate()
+    top = Element("", {}, 0)
+    opened = [top]
+
+    def start(name, attributes):
+        element = Element(name, attributes, parser.CurrentLineNumber)
+        opened[-1].children.append(element)
+        opened.append(element)
+
+    def end(_name):
+        opened.pop()
+
+    def text(data):
+        opened[-1].text += data
+    parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, text
+    with open(path, "rb") as file:
+        try:
+            parser.ParseFile(file)
+        except expat.ExpatError as error:
+            raise SystemExit(f"Error: could not open {path} !\n{path}:{error.lineno}:{error.offset + 1}: "
+                             f"{expat.ErrorString(error.code)}") from None
+    for element in walk(top):
+        if element.name == "pyvcp":
+            return element
+    raise NoPanel("Error: no pyvcp element in file!")
+
+
+def walk(element):
+    for child in element.children:
+        yield child
+        yield from walk(child)
+
+
+def names():
+    """What expressions of the file may use."""
+    found = {n: getattr(tkinter.constants, n) for n in dir(tkinter.constants) if n.isupper()}
+    return found | {"tkinter": tkinter, "Tkinter": tkinter}
+
+
+def attribute(text):
+    if text[:1] and text[0] in EVALUATED:
+        return eval(text, names())          # the file's author may run Python: that is how options are written
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
+
+
+class Builder:
+    """Makes the widgets of a file and of those it includes."""
+
+    def __init__(self, component):
+        self.component = component
+        self.panel = pyvcp_widgets.Panel(component, self.include)
+        self.files = []
+
+    def place(self, element):
+        return f"{self.files[-1]}:{element.line}"
+
+    def build(self, path, master, container=None):
+        """All widgets of a file in master, or in a container with add()."""
+        if os.path.abspath(path) in map(os.path.abspath, self.files):
+            raise SystemExit(f"{path}: includes itself")
+        root = read(path)
+        self.files.append(path)
+        for element in root.children:
+            self.element(element, master, container)
+        self.files.pop()
+
+    def options(self, element):
+        """Attributes and option elements, evaluated."""
+        found = {}
+        steps = [(name, text, attribute) for name, text in element.attributes.items()]
+        steps += [(child.name, child.text.strip(), lambda text: eval(text, names())) for child in element.children
+                  if child.name not in pyvcp_widgets.ELEMENTS]
+        for name, text, value_of in steps:
+            try:
+                found[name] = value_of(text)
+            except Exception as error:
+                raise SystemExit(f"Error evaluating xml file:\nWidget {element.name}, Property {name}\n"
+                                 f"{type(error).__name__}: {error}\n{self.place(element)}") from None
+        return found
+
+    def element(self, element, master, container):
+        make = pyvcp_widgets.ELEMENTS.get(element.name)
+        if make is None:
+            raise SystemExit(f"{self.place(element)}: unknown element <{element.name}>; known: "
+                             f"{', '.join(sorted(pyvcp_widgets.ELEMENTS))}")
+        options = self.options(element)
+        try:
+            widget = make(master, self.panel, **options)
+        except SystemExit:
+            raise
+        except Exception as error:
+            shown = ", ".join(f"{n}={v!r}" for n, v in options.items())
+            raise SystemExit(f"Error constructing {element.name}({shown}):\n{error}\n{self.place(element)}") from None
+        if isinstance(widget, pyvcp_widgets.Directive):
+            if container is not None:
+                widget.apply(container)
+        elif isinstance(widget, tkinter.Misc):
+            if container is None:
+                widget.pack(side="top", fill="both", expand="yes")
+            else:
+                container.add(widget)
+            self.panel.widgets.append(widget)
+        inner = [child for child in element.children if child.name in pyvcp_widgets.ELEMENTS]
+        if inner and not hasattr(widget, "add"):
+            raise SystemExit(f"{self.place(inner[0])}: <{inner[0].name}> cannot stand in <{element.name}>: a vbox, hbox, "
+                             "labelframe, table or tabs around both holds them")
+        for child in inner:
+            self.element(child, widget.holder(), widget)
+
+    def include(self, widget, source, prefix):
+        """Fills an include with the panel of another file."""
+        beside = os.path.join(os.path.dirname(self.files[-1]), source)
+        path = beside if os.path.exists(beside) else source
+        before = self.component.getprefix()
+        if prefix:
+            self.component.setprefix(prefix)
+        try:
+            self.build(path, widget, widget)
+        except (OSError, NoPanel) as error:
+            raise ValueError(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+        finally:
+            self.component.setprefix(before)
+
+
+def create_vcp(master, component=None, path=None):
+    """Makes the panel of `filename` in master and keeps it up to date. The component gets the pins; without one, a
+    component pyvcp is made. Raises SystemExit (mistakes in the file), NoPanel, OSError."""
+    if component is None:
+        component = hal.component("pyvcp")
+    builder = Builder(component)
+    builder.build(path or filename, master)
+
+    def poll():
+        try:
+            for widget in builder.panel.widgets:
+                if hasattr(widget, "follow"):
+                    widget.follow()
+        except (RuntimeError, hal.error) as error:      # the component has left HAL
+            print(f"pyvcp: {error}")
+            return
+        master.after(POLL_MS, poll)
+    poll()
+    return component
