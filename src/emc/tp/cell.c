@@ -24,6 +24,7 @@
 #define CELL_MOVES 64      /* moves that one cell may span; less than TRAJ_HISTORY */
 #define ARC_CAP 0.97       /* share of acceleration that a curve at constant speed may use on arcs, */
 #define ROUND_CAP 0.995    /* and in roundings: the rest leaves authority to brake */
+#define JERK_CYCLES 5      /* a step of acceleration acts in jerk while its place is within window + so many cycles */
 #define ARC_STEP 0.1745    /* rad: longest cell on an arc of up to one turn */
 
 /* ---- cells ------------------------------------------------------------------- */
@@ -153,9 +154,16 @@ static int fill_rows(struct traj *tj, const struct traj_cell *c, const struct pa
     return 0;
 }
 
+/* Time by which the mean is behind step() at most, while what step() does acts in its jerk: half of the window, and the
+ * cycles that a third difference of positions takes. */
+static double lag_time(const struct traj *tj, int window)
+{
+    return window > 1 ? (window + JERK_CYCLES) * tj->dt / 2 : 0;
+}
+
 /* Bound of acceleration that a cell's jerk leaves when the mean's speed is at most `top` and the
- * acceleration changes from one bound to the other within the filter's window. */
-static double jerk_bound(const struct traj_row *rows, int count, double top, double window, double share)
+ * acceleration builds up within `build`. */
+static double jerk_bound(const struct traj_row *rows, int count, double top, double build, double share)
 {
     double u = 1e30;
 
@@ -163,24 +171,26 @@ static double jerk_bound(const struct traj_row *rows, int count, double top, dou
         const struct traj_row *r = &rows[i];
         if (r->j <= 0) continue;
         double q1 = fmax(r->hi1, -r->lo1), q2 = fmax(r->hi2, -r->lo2);
-        double change = 2 * q1 / window + 3 * q2 * top;
+        double change = q1 / build + 3 * q2 * top;
         if (change > 1e-12) u = fmin(u, fmax(0, share * r->j - r->most3 * top * top * top) / change);
     }
     return u;
 }
 
-/* The same at b = 0, cap / 2 and cap. While step() is at b, or anywhere above, the mean is no faster than
+/* The same at b = 0, cap / 2 and cap. The acceleration builds up within the filter's window, in half of it where it may
+ * turn from one bound to the other. While step() is at b, or anywhere above, the mean is no faster than
  * by what the bounds u allow in half a window: this makes more of them where motion is slower than it
  * might be. In b it is concave where speed is above that gain; below cap / 2 it is taken as constant. */
-static void jerk_bounds(const struct traj_row *rows, int count, double top, double cap, double window, double share, double u, double bound[3])
+static void jerk_bounds(const struct traj_row *rows, int count, double top, double cap, double window, double lag, int turns,
+                        double share, double u, double bound[3])
 {
-    double slow = sqrt(cap / 2), gain;
+    double slow = sqrt(cap / 2), build = turns ? window / 2 : window, gain;
 
-    bound[2] = jerk_bound(rows, count, top, window, share);
+    bound[2] = jerk_bound(rows, count, top, build, share);
     bound[1] = bound[0] = bound[2];
-    gain = fmin(u, jerk_bound(rows, count, 0, window, share)) * window / 2;
+    gain = fmin(u, jerk_bound(rows, count, 0, build, share)) * lag;
     if (slow < gain || slow + gain >= top) return;
-    bound[1] = bound[0] = jerk_bound(rows, count, slow + gain, window, share);
+    bound[1] = bound[0] = jerk_bound(rows, count, slow + gain, build, share);
 }
 
 /* Bounds of motion on the cell from the limits of axes and joints and the path's derivatives. Returns
@@ -234,7 +244,7 @@ static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int 
     double up[3], down[3], by_jerk[3] = { 1e30, 1e30, 1e30 }, most_u = share * g->acc;
     for (int i = 0; i < count; i++)
         if (rows[i].a > 0) most_u = fmin(most_u, share * rows[i].a / fmax(1e-12, fmax(rows[i].hi1, -rows[i].lo1)));
-    if (jerk) jerk_bounds(rows, count, c->top, cap, window, share, most_u, by_jerk);
+    if (jerk) jerk_bounds(rows, count, c->top, cap, window, lag_time(tj, c->window), c->turns, share, most_u, by_jerk);
     for (int n = 0; n < 3; n++) {
         double b = cap * n / 2;
         up[n] = down[n] = fmin(most_u, by_jerk[n]);
@@ -301,14 +311,23 @@ double traj_jerk(const struct traj *tj, const struct traj_seg *g)
     return j < 1e299 ? j : 0;
 }
 
-/* The first cell after a rest: the window for all cells up to the next one. Moves known by now decide. */
+/* The first cell after a rest: the window for all cells up to the next one. Moves known by now decide; where the next
+ * rest is known too, motion is no faster than jerk lets it get over that length. */
 static int choose_window(const struct traj *tj, uint32_t index)
 {
+    double start = traj_cseg(tj, index)->s0, len = 1e99;
+    uint32_t end = index;
+
+    for (; end != tj->end && end - index < CELL_MOVES; end++)
+        if (end != index && traj_cseg(tj, end)->join == JOIN_REST) break;
+    const struct traj_seg *last = traj_cseg(tj, end - 1);
+    if (end != tj->end ? traj_cseg(tj, end)->join == JOIN_REST : tj->tail_forced || last->end == TRAJ_STOP) len = last->s1 - start;
+
     int most = 1;
-    for (uint32_t t = index; t != tj->end && t - index < CELL_MOVES; t++) {
+    for (uint32_t t = index; t != end; t++) {
         const struct traj_seg *g = traj_cseg(tj, t);
-        if (t != index && g->join == JOIN_REST) break;
-        int n = traj_window(tj, planned_speed(tj, g), g->acc, traj_jerk(tj, g));
+        double j = traj_jerk(tj, g), peak = j > 0 ? j * pow(len / (2 * j), 2.0 / 3) : 0;
+        int n = traj_window(tj, fmin(planned_speed(tj, g), peak), g->acc, j, tj->cut_turns ? 2 : 1);
         if (n > most) most = n;
     }
     return most;
@@ -378,8 +397,12 @@ static int cut_piece(struct traj *tj, int *samples)
     c->len = end - a;
     c->seg = c->seg2 = tj->cut_seg;
     c->rest = g->join == JOIN_REST && a <= g->s0 + tiny;
-    if (c->rest) tj->cut_window = g->window = choose_window(tj, tj->cut_seg);
+    if (c->rest) {
+        tj->cut_turns = g->follow != TRAJ_FEED;
+        tj->cut_window = g->window = choose_window(tj, tj->cut_seg);
+    }
     c->window = tj->cut_window;
+    c->turns = tj->cut_turns;
     c->k = c->kr = 0;
     if (tj->piece_end >= CELLS_CYCLE) {
         double v = (end - piece_at(tj, tj->piece_end - CELLS_CYCLE + 1)->s0) / tj->dt;
@@ -398,7 +421,7 @@ static int cut_piece(struct traj *tj, int *samples)
     }
     tj->kin_len = c->len;
     /* The end of the path known so far: only what is out of reach of what may follow gets ripe. */
-    double tail = c->window * tj->dt / 2;
+    double tail = lag_time(tj, c->window);
     tail *= c->top + fmax(c->up[0].c1, c->down[0].c1) * tail;
     if (c->window > 1 && end == tj->s_final && end < traj_cseg(tj, tj->end - 1)->s1 && c->len > 3 * tail) {
         c->len -= 1.5 * tail;
@@ -470,7 +493,7 @@ static void note_reach(struct traj_reach *r, const struct traj_cell *p, const st
 static int find_reach(struct traj *tj, struct traj_reach *r)
 {
     const struct traj_cell *p = piece_at(tj, tj->piece_ripe), *by;
-    double end = p->s0 + p->len, half = p->window * tj->dt / 2, acc = biggest_acc(p);
+    double end = p->s0 + p->len, half = lag_time(tj, p->window), acc = biggest_acc(p);
     uint32_t first = tj->piece_ripe, last = tj->piece_ripe;
 
     for (uint32_t n = tj->piece_ripe + 1; last - tj->piece_ripe < TRAJ_REACH; n++) {

@@ -147,7 +147,9 @@ static void make_join(struct traj *tj, uint32_t index, int rest_before)
     g->cut = prev->prim.kind != PATH_LINE || g->prim.kind != PATH_LINE || prev->feed != g->feed ||
              prev->vmax != g->vmax || prev->acc != g->acc || prev->follow != g->follow ||
              prev->prim.metric != g->prim.metric || prev->stretch != g->stretch;
-    if (rest_before || prev->end == TRAJ_STOP) {
+    /* A run with limits of jerk either follows a spindle or does not: the filter differs. */
+    int turns = tj->lim.jerk_on && (prev->follow != TRAJ_FEED) != (g->follow != TRAJ_FEED);
+    if (rest_before || prev->end == TRAJ_STOP || turns) {
         join_rest(tj, g);
         return;
     }

@@ -595,7 +595,7 @@ int tpAddRigidTap(TP_STRUCT *tp, EmcPose end, double vel, double ini_maxvel, dou
     info->tap_window = 1;
     if (status->planner_type == 1 && ini_maxjerk > 0) {
         read_limits(pl);
-        info->tap_window = traj_window(&pl->tj, ini_maxvel, acc, ini_maxjerk);
+        info->tap_window = traj_window(&pl->tj, ini_maxvel, acc, ini_maxjerk, 2);
         info->tap_acc = fmin(acc, ini_maxjerk * info->tap_window * pl->cycle / 2);
     }
     memcpy(info->tap_end, to, sizeof info->tap_end);

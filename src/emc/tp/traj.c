@@ -9,8 +9,17 @@
 
 #define PORTIONS 320       /* pieces of constant acceleration in a cycle, never reached: 8 CELLS_CYCLE */
 #define STOP_SCAN 256      /* cells looked ahead for a stop at a given place */
+#define COAST_SCAN 512     /* and for keeping a speed; more of them: no higher speed */
+#define COAST_TRIES 6      /* speeds tried where the highest cannot be kept */
 #define HUNGRY 20          /* cycles without a new move: no more may come */
 #define GUARD_TIME 0.02    /* s: the tail is made final so long before it limits the speed */
+
+/* From rest: with this window, and free to do anything. */
+static void start_filter(struct traj *tj, int n, double s)
+{
+    traj_filter_set(&tj->filter, n, s);
+    tj->sped = tj->braked = 2 * TRAJ_WINDOW;
+}
 
 void traj_init(struct traj *tj, double dt)
 {
@@ -23,7 +32,7 @@ void traj_init(struct traj *tj, double dt)
     tj->drive.stop_s = NAN;
     tj->sweep_scale = 1;
     tj->sweep_vlimit = 1e99;
-    traj_filter_set(&tj->filter, 1, 0);
+    start_filter(tj, 1, 0);
 }
 
 void traj_reset(struct traj *tj, const double p[PATH_AXES])
@@ -32,6 +41,7 @@ void traj_reset(struct traj *tj, const double p[PATH_AXES])
     tj->cell_first = tj->piece_ripe = tj->piece_end = tj->cell_end = tj->cell = 0;
     tj->kin_len = 0;
     tj->cut_window = 1;
+    tj->cut_turns = 0;
     tj->blocked = 0;
     tj->s_final = tj->cut_s = 0;
     tj->tail_forced = 0;
@@ -41,7 +51,7 @@ void traj_reset(struct traj *tj, const double p[PATH_AXES])
     tj->sweeping = tj->sweep_anew = 0;
     tj->swept_end = 0;
     tj->s = tj->v = tj->acc = tj->place = tj->speed = 0;
-    traj_filter_set(&tj->filter, 1, 0);
+    start_filter(tj, 1, 0);
     tj->dir = 1;
     tj->waiting = tj->in_mark = 0;
     tj->back_sweep = 0;
@@ -57,7 +67,7 @@ void traj_filter_set(struct traj_filter *f, int n, double x)
     f->base = x;
     f->sum = 0;
     f->at = 0;
-    f->still = f->n;
+    f->still = f->n + 1;
 }
 
 double traj_filter_step(struct traj_filter *f, double x)
@@ -72,25 +82,24 @@ double traj_filter_step(struct traj_filter *f, double x)
         f->sum = 0; /* no rounding adds up */
         for (int i = 0; i < f->n; i++) f->sum += f->x[i];
     }
-    if (f->still >= f->n) {
-        f->still = f->n;
-        return x;
-    }
+    if (f->still > f->n) f->still = f->n + 1;
+    if (f->still >= f->n) return x;
     return f->base + f->sum / f->n;
 }
 
 int traj_filter_settled(const struct traj_filter *f)
 {
-    return f->still >= f->n;
+    return f->n <= 1 || f->still > f->n; /* one cycle more: steps of acceleration fall between two cycles */
 }
 
-/* Acceleration is limited to a, or to j window / 2 where that is less: the mean of what changes from
- * one bound to the other. Changing the speed by v takes v / acceleration + window; this is least for
- * a window of sqrt(2 v / j), and more than 2 a / j brings nothing. */
-int traj_window(const struct traj *tj, double v, double a, double j)
+/* Acceleration is limited to a, or to j window / turn where that is less: the mean of what changes from
+ * rest (turn 1) or from the other bound (turn 2) to a bound. Changing the speed by v takes
+ * v / acceleration + window; this is least for a window of sqrt(turn v / j), and more than turn a / j
+ * brings nothing. */
+int traj_window(const struct traj *tj, double v, double a, double j, int turn)
 {
     if (!tj->lim.jerk_on || j <= 0) return 1;
-    double t = fmin(2 * a / j, sqrt(2 * v / j)) / tj->dt;
+    double t = fmin(turn * a / j, sqrt(turn * v / j)) / tj->dt;
     return t >= TRAJ_WINDOW ? TRAJ_WINDOW : t <= 1 ? 1 : (int)ceil(t - 1e-6);
 }
 
@@ -178,7 +187,7 @@ static int next_cell(struct traj *tj)
             tj->v = 0;
             /* a move that was released has become the current one */
             if (tj->cur != cell_at(tj, next)->seg) return 0;
-            traj_filter_set(&tj->filter, cell_at(tj, next)->window, cell_at(tj, next)->s0);
+            start_filter(tj, cell_at(tj, next)->window, cell_at(tj, next)->s0);
         }
         tj->cell = next;
         tj->s = cell_at(tj, next)->s0;
@@ -235,6 +244,8 @@ double traj_stop_distance(const struct traj *tj)
     uint32_t index = tj->cell;
     double b = tj->v * tj->v, x = 3 * tj->v * tj->dt + fabs(tj->s - tj->place); /* cycles until it brakes; the filter */
 
+    if (tj->filter.n > 1 && tj->sped < tj->filter.n) x += tj->v * (tj->filter.n - tj->sped) * tj->dt;
+
     for (int n = 0; n < STOP_SCAN && b > 0; n++) {
         const struct traj_cell *c = &tj->cells[index & (TRAJ_CELLS - 1)];
         double brake = allowed(brakes(tj, c), b), d = c->len;
@@ -263,9 +274,63 @@ static double target_speed(const struct traj *tj, const struct traj_cell *c)
     return sqrt(clamp_b(c, b));
 }
 
-static void step_path(struct traj *tj)
+/* The place to stop at lies ahead, and braking from here meets it. */
+static int stop_met(const struct traj *tj)
+{
+    const struct traj_cell *c = ccell_at(tj, tj->cell);
+    double d = tj->dir > 0 ? c->s0 + c->len - tj->s : tj->s - c->s0, b = stop_b(tj, &d);
+    return b >= 0 && tj->v * tj->v <= ramp_b(brakes(tj, c), b, d) * (1 + 1e-9);
+}
+
+/* The envelope, and the place to stop at where `stop`, hold if the speed stays for `cycles` and braking begins then. */
+static int can_coast(struct traj *tj, int cycles, int stop)
+{
+    double left = tj->v * cycles * tj->dt, b = tj->v * tj->v * (1 + 1e-9), s = tj->s, start = tj->s;
+    uint32_t cell = tj->cell;
+    int good = 0;
+
+    for (int n = 0; n < COAST_SCAN; n++) {
+        const struct traj_cell *c = ccell_at(tj, tj->cell);
+        double end = tj->dir > 0 ? c->s0 + c->len : c->s0, d = fabs(end - s), b_end;
+        if (tj->dir > 0) b_end = tj->cell + 1 == tj->cell_end ? 0 : cell_at(tj, tj->cell + 1)->k;
+        else b_end = tj->cell == tj->cell_first ? 0 : c->kr;
+        if (b > c->cap) break;
+        if (left <= d) {
+            good = b <= ramp_b(brakes(tj, c), b_end, d - left);
+            if (good && stop) {
+                tj->s = s + tj->dir * left;
+                good = stop_met(tj);
+            }
+            break;
+        }
+        if (b > b_end) break;
+        left -= d;
+        s = end;
+        tj->cell += (uint32_t)tj->dir;
+    }
+    tj->s = start;
+    tj->cell = cell;
+    return good;
+}
+
+/* What step() may do in this cycle. */
+struct leave {
+    int brake;
+    double top; /* speeding up: to this speed */
+};
+
+/* 1: faster, 2: slower, 0: by no more than rounding. */
+static int change_of(double from, double to)
+{
+    double tiny = 1e-9 * from;
+    return to > from + tiny ? 1 : to < from - tiny ? 2 : 0;
+}
+
+/* One cycle along the path. Returns 1 when motion sped up, 2 when it braked, 3 both. */
+static int move_path(struct traj *tj, struct leave may)
 {
     double left = tj->dt;
+    int did = 0;
 
     for (int n = 0; n < PORTIONS && left > 1e-9 * tj->dt; n++) {
         struct traj_cell *c = cell_at(tj, tj->cell);
@@ -276,9 +341,10 @@ static void step_path(struct traj *tj)
             if (!next_cell(tj)) break;
             continue;
         }
-        double b_end, v = tj->v, b = v * v, vt = target_speed(tj, c), ve2, t = left, x;
+        double b_end, v = tj->v, b = v * v, vt = fmin(target_speed(tj, c), did & 2 ? v : fmax(v, may.top)), ve2, t = left, x;
         if (tj->dir > 0) b_end = tj->cell + 1 == tj->cell_end ? 0 : cell_at(tj, tj->cell + 1)->k;
         else b_end = tj->cell == tj->cell_first ? 0 : c->kr;
+        if (!may.brake) vt = fmax(vt, v);
         if (vt <= 0 && v <= 0) break;
         double d_stop = d, b_stop = stop_b(tj, &d_stop);
         if (b_stop >= 0 && b <= ramp_b(brakes(tj, c), b_stop, d_stop) * (1 + 1e-9)) {
@@ -294,7 +360,7 @@ static void step_path(struct traj *tj)
                 b_end = fmin(b_end, b_stop);
             }
         }
-        double brake = allowed(brakes(tj, c), b), low2 = fmax(0, b - 2 * brake * d);
+        double brake = may.brake ? allowed(brakes(tj, c), b) : 0, low2 = fmax(0, b - 2 * brake * d);
 
         if (v > vt) { /* too fast: brake to vt */
             double tv = brake > 0 ? (v - vt) / brake : 1e30;
@@ -302,6 +368,7 @@ static void step_path(struct traj *tj)
             if (tv <= left && xv < d) {
                 tj->s += tj->dir * xv;
                 tj->v = vt;
+                did |= change_of(v, vt);
                 left -= tv;
                 continue;
             }
@@ -314,6 +381,7 @@ static void step_path(struct traj *tj)
             if (te <= left) {
                 tj->s = end;
                 tj->v = ve;
+                did |= change_of(v, ve);
                 left -= te;
                 continue;
             }
@@ -327,9 +395,43 @@ static void step_path(struct traj *tj)
         if (x > d) x = d;
         tj->s += tj->dir * x;
         tj->v = v1;
+        did |= change_of(v, v1);
         left = 0;
     }
+    return did;
 }
+
+/* One cycle along the path. With limits of jerk the acceleration of the mean must not turn from one bound to the other:
+ * between speeding up and braking the speed stays for the window. So it rises only to what
+ * can be kept that long. */
+static void step_path(struct traj *tj)
+{
+    const int calm = tj->filter.n > 1 && !ccell_at(tj, tj->cell)->turns ? tj->filter.n : 0;
+    const double s = tj->s, v = tj->v;
+    const uint32_t cell = tj->cell;
+    const int stop = calm && stop_met(tj);
+    struct leave may = { tj->sped >= calm, tj->braked >= calm ? 1e99 : 0 };
+    int did = move_path(tj, may);
+
+    if (calm && (did & 1) && (did == 3 || !can_coast(tj, calm, stop))) {
+        double lo = v, hi = fmax(tj->v, v), best = v;
+        for (int n = 0; n < COAST_TRIES + (v <= 0 ? 60 : 0); n++) {
+            may.top = n == 0 ? lo + (hi - lo) / 64 : (lo + hi) / 2;
+            tj->s = s, tj->v = v, tj->cell = cell;
+            did = move_path(tj, may);
+            if (did != 3 && can_coast(tj, calm, stop)) best = lo = may.top;
+            else if (n == 0 && v > 0) break;
+            else hi = may.top;
+            if (v <= 0 && best > 0 && n >= COAST_TRIES) break;
+        }
+        may.top = best;
+        tj->s = s, tj->v = v, tj->cell = cell;
+        did = move_path(tj, may);
+    }
+    tj->sped = did & 1 ? 0 : tj->sped + (tj->sped < 2 * TRAJ_WINDOW);
+    tj->braked = did & 2 ? 0 : tj->braked + (tj->braked < 2 * TRAJ_WINDOW);
+}
+
 
 /* Distance in which the tail must be made final: stopping distance and some time in hand. */
 static double tail_guard(const struct traj *tj)
@@ -338,7 +440,7 @@ static double tail_guard(const struct traj *tj)
     double acc = traj_cseg(tj, tj->cur)->acc, half = c->window * tj->dt / 2;
     if (half > tj->dt && tj->cell_first != tj->cell_end) acc = fmin(acc, fmax(allowed(c->down, 0), 1e-9));
     double v = tj->v + acc * 10 * tj->dt;
-    return 1.5 * v * v / (2 * acc) + v * (GUARD_TIME + half);
+    return 1.5 * v * v / (2 * acc) + v * (GUARD_TIME + 3 * half);
 }
 
 /* Place up to which motion may go for now. */
@@ -406,7 +508,7 @@ static void advance(struct traj *tj)
         /* From rest: with the window of these cells, and when what went before has left the filter. */
         int start = tj->v > 0 || traj_filter_settled(&tj->filter);
         if (start && tj->v <= 0 && tj->filter.n != ccell_at(tj, tj->cell)->window)
-            traj_filter_set(&tj->filter, ccell_at(tj, tj->cell)->window, tj->s);
+            start_filter(tj, ccell_at(tj, tj->cell)->window, tj->s);
         /* Backward, motion begins when its envelope is complete; a later sweep only changes feeds. */
         if (start && !tj->waiting && (tj->dir > 0 || sweep_back(tj) || tj->v > 0)) step_path(tj);
     }
@@ -479,8 +581,8 @@ int traj_active(const struct traj *tj)
 double traj_acc(const struct traj *tj, uint32_t index)
 {
     const struct traj_seg *g = traj_cseg(tj, index);
-    double j = traj_jerk(tj, g), window = g->window > 1 ? g->window : 1;
-    return (j > 0 ? fmin(g->acc, j * window * tj->dt / 2) : g->acc) / g->stretch;
+    double j = traj_jerk(tj, g), window = g->window > 1 ? g->window : 1, turn = g->follow != TRAJ_FEED ? 2 : 1;
+    return (j > 0 ? fmin(g->acc, j * window * tj->dt / turn) : g->acc) / g->stretch;
 }
 
 double traj_lag(const struct traj *tj)

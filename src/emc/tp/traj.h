@@ -14,7 +14,8 @@
  *   3. from the present state, braking by the bound of 2 keeps 2 in all cells ahead and
  *      ends at rest before the last cell's end.
  * With limits of jerk the place on the path is the mean of the last `window` places of step():
- * acceleration then changes by no more than 2 u / window, and 2 holds for
+ * acceleration then changes by no more than u / window, because between speeding up and braking step() keeps
+ * its speed for a window (invariant 3 holds after that), and 2 holds for
  * every place where the mean may be while step() is in a cell: pieces with their own bounds become
  * cells when all that is in reach is known.
  * Overrides, pause, abort and reverse only change the speed that step() aims at.
@@ -117,6 +118,7 @@ struct traj_cell {
     uint32_t seg2;       /* the other move of a rounding between very different ones, else seg */
     int rest;            /* motion rests at s0 */
     int window;          /* of the filter, cycles */
+    int turns;           /* acceleration may turn within the window: motion that follows a spindle */
     double k;            /* b allowed at s0 when running forward */
     double kr;           /* b allowed at s0 when running backward */
 };
@@ -171,7 +173,8 @@ struct traj {
     uint32_t piece_ripe, piece_end;
     uint32_t cell_first, cell_end;
     double kin_len;      /* length of the last cell whose joints were sampled */
-    int cut_window;      /* window of the cells being cut */
+    int cut_window;      /* window of the cells being cut, */
+    int cut_turns;       /* and how they follow */
     int blocked;         /* the kinematics have no solution right after the last cell */
     uint32_t cut_seg;    /* move that contains cut_s */
     double cut_s;
@@ -189,6 +192,7 @@ struct traj {
 
     /* motion */
     double s, v;         /* of step(); v >= 0 */
+    int sped, braked;    /* cycles since step() sped up, braked */
     struct traj_filter filter;
     double place;        /* on the path, behind the filter */
     double speed, acc;   /* of place, last cycle, signed by the direction of s */
@@ -234,8 +238,9 @@ void traj_filter_set(struct traj_filter *f, int n, double x);
 double traj_filter_step(struct traj_filter *f, double x);
 /* The output is the last input. */
 int traj_filter_settled(const struct traj_filter *f);
-/* Cycles of the filter that a motion with speed v, acceleration a and jerk j is best run with. */
-int traj_window(const struct traj *tj, double v, double a, double j);
+/* Cycles of the filter that a motion with speed v, acceleration a and jerk j is best run with. turn: 1, or 2 where the
+ * acceleration may turn from one bound to the other at once. */
+int traj_window(const struct traj *tj, double v, double a, double j, int turn);
 /* The path beyond the present place cannot be followed: no solution of the kinematics. */
 int traj_blocked(const struct traj *tj);
 /* At rest (no speed, nothing left in filters). */

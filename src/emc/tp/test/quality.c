@@ -284,7 +284,7 @@ static void lone_moves_with_jerk_limits_take_little_more_than_the_optimum(void)
         send_all();
         finish(100000);
         double t = b.cycles * b.dt, best = s_curve_time(d, 500, 1000, 50000);
-        CHECK(t < best + 0.05, "%g mm: %g s, optimum %g s", d, t, best);
+        CHECK(t < best + 0.035, "%g mm: %g s, optimum %g s", d, t, best);
         CHECK(b.worst_j > 0.49, "%g mm: jerk ratio %g", d, b.worst_j);
         limits_kept();
         bench_free(&b);
