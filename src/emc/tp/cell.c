@@ -235,9 +235,10 @@ static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int 
             c->seg2 = other;
     }
     cap = fmin(cap, 1e12);
-    double fed = feed_b(tj, c, fmax(tj->drive.max_scale, 1), 1e99);
+    double fed = feed_b(tj, c, fmax(tj->drive.max_scale, 1), 1e99), limit = cap;
+    cap = fmin(cap, fed); /* so that the chords below end at the highest speed there is */
     c->cap = cap;
-    c->top = sqrt(fmin(cap, fed));
+    c->top = sqrt(cap);
 
     /* Rows |q1 u + q2 b| <= A for all q1, q2 in their ranges, and |q1 u| <= A. With u of one sign
      * they are bounds of u that are concave in b: two chords over [0, cap] lie inside. */
@@ -269,8 +270,8 @@ static double bound_cell(struct traj *tj, struct traj_cell *c, int rounded, int 
     for (int i = 0; i < count; i++) {
         const struct traj_row *r = &rows[i];
         if (r->a <= 0) continue;
-        if (r->hi2 > r->lo2 && cap < fed && cap * fmax(r->hi2, -r->lo2) > LOSS_SHARE * share * r->a)
-            spread = fmax(spread, (r->hi2 - r->lo2) * cap / (share * r->a));
+        if (r->hi2 > r->lo2 && limit < fed && limit * fmax(r->hi2, -r->lo2) > LOSS_SHARE * share * r->a)
+            spread = fmax(spread, (r->hi2 - r->lo2) * limit / (share * r->a));
         /* joints: also by a changing slope where that joint sets the bound */
         double q1 = fmax(r->hi1, -r->lo1);
         if (sampled && q1 * up[0] > 0.8 * share * r->a) spread = fmax(spread, (r->hi1 - r->lo1) / q1);

@@ -160,8 +160,8 @@ static void make_join(struct traj *tj, uint32_t index, int rest_before)
     room = g->s0 - tj->cut_s;
     if (biggest < SMOOTH_SHARE && curl < SMOOTH_SHARE) {
         g->join = JOIN_SMOOTH;
-        /* Motion may be in cells already that were ripe for an end at rest here. */
-        if (tj->lim.jerk_on && room <= 0 && (prev->prim.kind != PATH_LINE || g->prim.kind != PATH_LINE)) join_rest(tj, g);
+        /* Motion may be in cells already that were ripe for an end at rest here: no bound of what comes was spread to them. */
+        if (tj->lim.jerk_on && room <= 0) join_rest(tj, g);
         return;
     }
     if (prev->end == TRAJ_EXACT || g->end != TRAJ_BLEND) {

@@ -110,9 +110,9 @@ struct traj_line {
 /* A piece of path with the bounds of motion on it; a cell when k and kr count. */
 struct traj_cell {
     double s0, len;
-    double cap;          /* of b */
+    double cap;          /* of b, by limits and by the highest feed there may be */
     struct traj_line up[2], down[2]; /* -(c1 - c2 b) of down <= u <= c1 - c2 b of up, all four lines; c2 >= 0 */
-    double top;          /* speed along s that is never exceeded here */
+    double top;          /* speed along s at cap */
     double metric;       /* largest |dp/ds| in the feed's metric */
     uint32_t seg;        /* move at s0: feed */
     uint32_t seg2;       /* the other move of a rounding between very different ones, else seg */
