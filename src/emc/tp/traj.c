@@ -10,7 +10,9 @@
 #define PORTIONS 320       /* pieces of constant acceleration in a cycle, never reached: 8 CELLS_CYCLE */
 #define STOP_SCAN 256      /* cells looked ahead for a stop at a given place */
 #define COAST_SCAN 512     /* and for keeping a speed; more of them: no higher speed */
-#define COAST_TRIES 6      /* speeds tried where the highest cannot be kept */
+#define COAST_TRIES 6      /* speeds tried where the highest cannot be kept, */
+#define SLOW_TRIES 60      /* halvings of it near rest */
+#define TINY_STEP 1e-13    /* of 1 + s: nothing is left of a cell */
 #define HUNGRY 20          /* cycles without a new move: no more may come */
 #define GUARD_TIME 0.02    /* s: the tail is made final so long before it limits the speed */
 
@@ -337,7 +339,8 @@ static int move_path(struct traj *tj, struct leave may)
         double end = tj->dir > 0 ? c->s0 + c->len : c->s0;
         double d = tj->dir > 0 ? end - tj->s : tj->s - end;
         tj->n_portions++;
-        if (d <= 0) {
+        if (d <= TINY_STEP * (1 + fabs(end))) {
+            tj->s = end;
             if (!next_cell(tj)) break;
             continue;
         }
@@ -401,37 +404,54 @@ static int move_path(struct traj *tj, struct leave may)
     return did;
 }
 
+/* Where a cycle begins. */
+struct step_start {
+    double s, v;
+    uint32_t cell;
+    int stop; /* a place to stop at must be met */
+};
+
+/* The cycle from there; did: as move_path(). Returns 1 when the speed it ends with can be kept for `calm` cycles. */
+static int try_step(struct traj *tj, const struct step_start *from, struct leave may, int calm, int *did)
+{
+    tj->s = from->s, tj->v = from->v, tj->cell = from->cell;
+    *did = move_path(tj, may);
+    return !calm || !(*did & 1) || (*did != 3 && can_coast(tj, calm, from->stop));
+}
+
 /* One cycle along the path. With limits of jerk the acceleration of the mean must not turn from one bound to the other:
- * between speeding up and braking the speed stays for the window. So it rises only to what
- * can be kept that long. */
+ * between speeding up and braking the speed stays for the window. So it rises only to what can be kept that long. */
 static void step_path(struct traj *tj)
 {
     const int calm = tj->filter.n > 1 && !ccell_at(tj, tj->cell)->turns ? tj->filter.n : 0;
-    const double s = tj->s, v = tj->v;
-    const uint32_t cell = tj->cell;
-    const int stop = calm && stop_met(tj);
+    const struct step_start from = { tj->s, tj->v, tj->cell, calm && stop_met(tj) };
     struct leave may = { tj->sped >= calm, tj->braked >= calm ? 1e99 : 0 };
-    int did = move_path(tj, may);
+    int did, good = 0;
 
-    if (calm && (did & 1) && (did == 3 || !can_coast(tj, calm, stop))) {
-        double lo = v, hi = fmax(tj->v, v), best = v;
-        for (int n = 0; n < COAST_TRIES + (v <= 0 ? 60 : 0); n++) {
-            may.top = n == 0 ? lo + (hi - lo) / 64 : (lo + hi) / 2;
-            tj->s = s, tj->v = v, tj->cell = cell;
-            did = move_path(tj, may);
-            if (did != 3 && can_coast(tj, calm, stop)) best = lo = may.top;
-            else if (n == 0 && v > 0) break;
-            else hi = may.top;
-            if (v <= 0 && best > 0 && n >= COAST_TRIES) break;
+    if (!try_step(tj, &from, may, calm, &did)) {
+        double low = from.v, high = fmax(tj->v, low);
+        if (low < (high - low) / 64) { /* from near rest, the speed may become many times of what it is */
+            for (int n = 0; n < SLOW_TRIES && !good; n++) {
+                may.top = (low + high) / 2;
+                good = try_step(tj, &from, may, calm, &did);
+                if (!good) high = may.top;
+            }
+        } else {
+            may.top = low + (high - low) / 64;
+            good = try_step(tj, &from, may, calm, &did);
         }
-        may.top = best;
-        tj->s = s, tj->v = v, tj->cell = cell;
-        did = move_path(tj, may);
+        if (good) low = may.top;
+        for (int n = 0; n < COAST_TRIES && good; n++) {
+            may.top = (low + high) / 2;
+            if (try_step(tj, &from, may, calm, &did)) low = may.top;
+            else high = may.top;
+        }
+        may.top = low;
+        try_step(tj, &from, may, calm, &did);
     }
     tj->sped = did & 1 ? 0 : tj->sped + (tj->sped < 2 * TRAJ_WINDOW);
     tj->braked = did & 2 ? 0 : tj->braked + (tj->braked < 2 * TRAJ_WINDOW);
 }
-
 
 /* Distance in which the tail must be made final: stopping distance and some time in hand. */
 static double tail_guard(const struct traj *tj)
