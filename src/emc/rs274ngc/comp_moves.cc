@@ -56,12 +56,16 @@ void arrive(Setup &s, const ArcPlane &plane, const EmcPose &programmed_end, Poin
 bool tool_inside(int side, int turn) { return (side == COMP_LEFT && turn > 0) || (side == COMP_RIGHT && turn < 0); }
 
 // The join around a convex corner at the programmed point P, at the height before the move.
-void enqueue_join(Setup &s, const ArcPlane &plane, Point2 p, Point2 to, const EmcPose &end)
+EmcPose end_of_join(const Setup &s, const ArcPlane &plane, Point2 to, const EmcPose &end)
 {
     EmcPose join = with_point(end, plane, to);
     axis(join, plane.normal) = axis(s.current, plane.normal);
-    const int turn = s.comp_side == COMP_LEFT ? -1 : 1;
-    enqueue_arc(s, join, p, turn, 0);
+    return join;
+}
+
+void enqueue_join(Setup &s, const ArcPlane &plane, Point2 p, Point2 to, const EmcPose &end)
+{
+    enqueue_arc(s, end_of_join(s, plane, to, end), p, s.comp_side == COMP_LEFT ? -1 : 1, 0);
 }
 
 // ---- straight moves -------------------------------------------------------------------
@@ -148,7 +152,7 @@ int straight_next(Setup &s, int g, const ArcPlane &plane, const EmcPose &end)
         CHECK(g != G_0 && g != G_1, "Bug code not g0 or g1");
         TRY(finish_comp(s));
         if (g == G_0)
-            enqueue_straight(s, true, with_point(s.current, plane, m), m.x - c.x, m.y - c.y);
+            enqueue_straight(s, true, end_of_join(s, plane, m, end), m.x - c.x, m.y - c.y);
         else
             enqueue_join(s, plane, p, m, end);
         flush_comp(s);
@@ -176,7 +180,7 @@ int arc_entry(Setup &s, int g, const ArcPlane &plane, const EmcPose &end)
     Arc arc;
     TRY(read_arc(s, g, plane, from, n, &arc));
     const bool inside = tool_inside(s.comp_side, arc.turn);
-    CHECK(inside && distance(n, arc.centre) <= r, "Tool radius not less than arc radius with comp");
+    CHECK(inside && distance(from, arc.centre) <= r, "Tool radius not less than arc radius with comp");
     const double to_centre = angle_to(n, arc.centre);
     const Point2 e = at(n, r, inside ? to_centre : to_centre + M_PI);
     // The arc that leads in: from here to E, there tangent to the programmed arc.

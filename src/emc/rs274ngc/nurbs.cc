@@ -50,7 +50,8 @@ int convert_spline(Setup &s, int g)
 {
     const Block &b = s.block;
     CHECK(s.comp_on(), "Cannot convert spline with cutter radius compensation");
-    TRY(check_feed(s, "Cannot make arc with zero feed rate", "F word missing with inverse time arc move"));
+    if (s.feed_mode != UNITS_PER_REVOLUTION) // not checked there
+        TRY(check_feed(s, "Cannot make arc with zero feed rate", "F word missing with inverse time arc move"));
     CHECK(b.has('a') || b.has('b') || b.has('c'), "Splines may not have motion in A, B, or C");
     SplinePlane plane;
     CHECK(!spline_plane(s.plane, &plane), "Cannot do an arc in planes G17.1, G18.1, or G19.1");
