@@ -26,32 +26,35 @@ from interpreter import *
 throw_exceptions = 1  # handlers raise what self.execute() finds
 
 
+class _Refusal(Exception):
+    """The code fails with this text."""
+
+
+def _told(self, error, where):
+    self.set_errormsg(str(error) if isinstance(error, _Refusal) or not where else where % error)
+    return INTERP_ERROR
+
+
 def _named(code, end=""):
-    """What goes wrong inside a handler is told with the code and the handler's name."""
+    """What goes wrong inside a handler is told with the code and the handler's name; a refusal as it stands."""
     def wrap(handler):
+        where = code and f"{code}/{handler.__name__}: %s{end}"
         if inspect.isgeneratorfunction(handler):
             @functools.wraps(handler)
             def guarded(self, **words):
                 try:
                     yield from handler(self, **words)
                 except Exception as e:
-                    self.set_errormsg(f"{code}/{handler.__name__}: {e}{end}")
-                    yield INTERP_ERROR
+                    yield _told(self, e, where)
         else:
             @functools.wraps(handler)
             def guarded(self, **words):
                 try:
                     return handler(self, **words)
                 except Exception as e:
-                    self.set_errormsg(f"{code}/{handler.__name__}: {e}{end}")
-                    return INTERP_ERROR
+                    return _told(self, e, where)
         return guarded
     return wrap
-
-
-def _fail(self, text):
-    self.set_errormsg(text)
-    return INTERP_ERROR
 
 
 def _block(self):
@@ -68,42 +71,55 @@ def _index(self, tool):
     return 0 if self.tool_table[0].toolno == tool else -1
 
 
-def _unanswered(self):
-    r = _block(self).executing_remap
-    return f"the {r.name} remap procedure {r.remap_ngc or r.remap_py} did not return a value"
+def _pocket(self, tool, text):
+    status, pocket = self.find_tool_pocket(tool)
+    if status != INTERP_OK:
+        raise _Refusal(text)
+    return pocket
+
+
+def _word(self, letter, text):
+    block = _block(self)
+    if not getattr(block, letter + "_flag"):
+        raise _Refusal(text)
+    return getattr(block, letter + "_number")
+
+
+def _no_compensation(self):
+    if self.cutter_comp_side:
+        raise _Refusal("Cannot change tools with cutter radius compensation on")
+
+
+def _answer(self):
+    """What the procedure returned; None when the built-in code has done the work already."""
+    if not self.value_returned:
+        r = _block(self).executing_remap
+        raise _Refusal(f"the {r.name} remap procedure {r.remap_ngc or r.remap_py} did not return a value")
+    return None if _block(self).builtin_used else self.return_value
 
 
 # ---- T ------------------------------------------------------------------------------------
 
 @_named("T")
 def prepare_prolog(self, **words):
-    block = _block(self)
-    if not block.t_flag:
-        return _fail(self, "T requires a tool number")
-    tool = int(block.t_number)
-    pocket = -1
-    if tool:
-        status, pocket = self.find_tool_pocket(tool)
-        if status != INTERP_OK:
-            return _fail(self, "T%d: pocket not found" % tool)
+    tool = int(_word(self, "t", "T requires a tool number"))
+    self.params["pocket"] = _pocket(self, tool, "T%d: pocket not found" % tool) if tool else -1
     self.params["tool"] = tool
-    self.params["pocket"] = pocket
     return INTERP_OK
 
 
 @_named("T")
 def prepare_epilog(self, **words):
-    if not self.value_returned:
-        return _fail(self, _unanswered(self))
-    if _block(self).builtin_used:
+    answer = _answer(self)
+    if answer is None:
         return INTERP_OK
     tool = int(self.params["tool"])
-    if self.return_value > 0:
-        self.selected_tool = tool
-        self.selected_pocket = _index(self, tool)
-        emccanon.SELECT_TOOL(tool)
-        return INTERP_OK
-    return _fail(self, "T%d: aborted (return code %.1f)" % (tool, self.return_value))
+    if answer <= 0:
+        raise _Refusal("T%d: aborted (return code %.1f)" % (tool, answer))
+    self.selected_tool = tool
+    self.selected_pocket = _index(self, tool)
+    emccanon.SELECT_TOOL(tool)
+    return INTERP_OK
 
 
 # ---- M6 -----------------------------------------------------------------------------------
@@ -111,9 +127,8 @@ def prepare_epilog(self, **words):
 @_named("M6")
 def change_prolog(self, **words):
     if self.selected_pocket < 0:
-        return _fail(self, "M6: no tool prepared")
-    if self.cutter_comp_side:
-        return _fail(self, "Cannot change tools with cutter radius compensation on")
+        raise _Refusal("M6: no tool prepared")
+    _no_compensation(self)
     self.params["tool_in_spindle"] = self.current_tool
     self.params["selected_tool"] = self.selected_tool
     self.params["current_pocket"] = self.current_pocket
@@ -123,26 +138,24 @@ def change_prolog(self, **words):
 
 @_named("M6")
 def change_epilog(self, **words):
-    if not self.value_returned:
-        self.set_errormsg(_unanswered(self))
-        yield INTERP_ERROR
-        return
-    if _block(self).builtin_used:
+    answer = _answer(self)
+    if answer is None:
         yield INTERP_OK
         return
-    code = self.return_value
-    if code > 0:
-        emccanon.CHANGE_TOOL()
-        self.current_pocket = self.selected_pocket
-        self.selected_pocket = -1
-        self.selected_tool = -1
-        self.set_tool_parameters()
-        self.toolchange_flag = True
-        yield INTERP_EXECUTE_FINISH
-        return
-    yield INTERP_EXECUTE_FINISH  # what the procedure said to the operator comes first
-    self.set_errormsg("M6 aborted (return code %.1f)" % code)
-    yield INTERP_ERROR
+    if answer <= 0:
+        yield INTERP_EXECUTE_FINISH  # what the procedure said to the operator comes first
+        raise _Refusal("M6 aborted (return code %.1f)" % answer)
+    _change_to_selected(self)
+    self.set_tool_parameters()
+    yield INTERP_EXECUTE_FINISH
+
+
+def _change_to_selected(self):
+    emccanon.CHANGE_TOOL()
+    self.current_pocket = self.selected_pocket
+    self.selected_pocket = -1
+    self.selected_tool = -1
+    self.toolchange_flag = True
 
 
 def ignore_m6(self, **words):
@@ -153,22 +166,11 @@ def ignore_m6(self, **words):
 # ---- M61 ----------------------------------------------------------------------------------
 
 def _requested(self):
-    """(tool, P number) of the Q word, or None after the error is set."""
-    block = _block(self)
-    if not block.q_flag:
-        self.set_errormsg("M61 requires a Q parameter")
-        return None
-    tool = int(block.q_number)
+    """(tool, P number) of the Q word."""
+    tool = int(_word(self, "q", "M61 requires a Q parameter"))
     if tool < 0:
-        self.set_errormsg("M61: Q value < 0")
-        return None
-    pocket = 0
-    if tool:
-        status, pocket = self.find_tool_pocket(tool)
-        if status != INTERP_OK:
-            self.set_errormsg("M61 failed: requested tool %d not in table" % tool)
-            return None
-    return tool, pocket
+        raise _Refusal("M61: Q value < 0")
+    return tool, _pocket(self, tool, "M61 failed: requested tool %d not in table" % tool) if tool else 0
 
 
 def _use_tool(self, tool):
@@ -182,59 +184,48 @@ def _use_tool(self, tool):
 
 @_named("M61", ")")
 def settool_prolog(self, **words):
-    found = _requested(self)
-    if found is None:
-        return INTERP_ERROR
-    self.params["tool"], self.params["pocket"] = found
+    self.params["tool"], self.params["pocket"] = _requested(self)
     return INTERP_OK
 
 
 @_named("M61", ")")
 def settool_epilog(self, **words):
-    if not self.value_returned:
-        self.set_errormsg(_unanswered(self))
-        yield INTERP_ERROR
-        return
-    if _block(self).builtin_used:
+    answer = _answer(self)
+    if answer is None:
         yield INTERP_OK
         return
-    if self.return_value > 0:
-        _use_tool(self, int(self.params["tool"]))
-        yield INTERP_EXECUTE_FINISH
-        return
-    self.set_errormsg("M61 aborted (return code %.1f)" % self.return_value)
-    yield INTERP_ERROR
+    if answer <= 0:
+        raise _Refusal("M61 aborted (return code %.1f)" % answer)
+    _use_tool(self, int(self.params["tool"]))
+    yield INTERP_EXECUTE_FINISH
 
 
 @_named("M61", ")")
 def set_tool_number(self, **words):
     """REMAP=M61 modalgroup=6 python=set_tool_number"""
-    found = _requested(self)
-    if found is None:
-        yield INTERP_ERROR
-        return
-    _use_tool(self, found[0])
+    _use_tool(self, _requested(self)[0])
     yield INTERP_EXECUTE_FINISH
 
 
 # ---- S and F ------------------------------------------------------------------------------
 
+def _value_answered(self, code):
+    """True: the value of the word is to be used."""
+    answer = _answer(self)
+    if answer is not None and answer < 0:
+        raise _Refusal("%s: remap procedure returned %f" % (code, answer))
+    return answer is not None
+
+
 @_named("S", ")")
 def setspeed_prolog(self, **words):
-    block = _block(self)
-    if not block.s_flag:
-        return _fail(self, "S requires a value")
-    self.params["speed"] = block.s_number
+    self.params["speed"] = _word(self, "s", "S requires a value")
     return INTERP_OK
 
 
 @_named("S", ")")
 def setspeed_epilog(self, **words):
-    if not self.value_returned:
-        return _fail(self, _unanswered(self))
-    if self.return_value < 0:
-        return _fail(self, "S: remap procedure returned %f" % self.return_value)
-    if not _block(self).builtin_used:
+    if _value_answered(self, "S"):
         self.speed[0] = self.params["speed"]
         emccanon.enqueue_SET_SPINDLE_SPEED(0, self.speed[0])
     return INTERP_OK
@@ -242,20 +233,13 @@ def setspeed_epilog(self, **words):
 
 @_named("F", ")")
 def setfeed_prolog(self, **words):
-    block = _block(self)
-    if not block.f_flag:
-        return _fail(self, "F requires a value")
-    self.params["feed"] = block.f_number
+    self.params["feed"] = _word(self, "f", "F requires a value")
     return INTERP_OK
 
 
 @_named("F", ")")
 def setfeed_epilog(self, **words):
-    if not self.value_returned:
-        return _fail(self, _unanswered(self))
-    if self.return_value < 0:
-        return _fail(self, "F: remap procedure returned %f" % self.return_value)
-    if not _block(self).builtin_used:
+    if _value_answered(self, "F"):
         self.feed_rate = self.params["feed"]
         emccanon.enqueue_SET_FEED_RATE(self.feed_rate)
     return INTERP_OK
@@ -284,23 +268,23 @@ def cycle_prolog(self, **words):
     known = self.sticky_params.setdefault(remap.name, {})
     for axis in foreign:
         if getattr(block, axis + "_flag"):
-            return _fail(self, "%s: Cannot put a %s in a canned cycle in the %s plane" % (remap.name, axis.upper(), name))
+            raise _Refusal("%s: Cannot put a %s in a canned cycle in the %s plane" % (remap.name, axis.upper(), name))
     known.update((k, v) for k, v in words.items() if k in sticky or k not in "abcuvwxyzn")
     for word, value in known.items():
         if word not in words:
             self.params[word] = value
     if "r" not in known:
-        return _fail(self, "%s: cycle requires R word" % remap.name)
+        raise _Refusal("%s: cycle requires R word" % remap.name)
     if known["r"] <= 0.0:
-        return _fail(self, "%s: R word must be > 0 if used (%.4f)" % (remap.name, known["r"]))
+        raise _Refusal("%s: R word must be > 0 if used (%.4f)" % (remap.name, known["r"]))
     if "p" in known and known["p"] < 0.0:
-        return _fail(self, "%s: P word must be >= 0 if used (%.4f)" % (remap.name, known["p"]))
+        raise _Refusal("%s: P word must be >= 0 if used (%.4f)" % (remap.name, known["p"]))
     if self.feed_rate == 0.0:
-        return _fail(self, "%s: feed rate must be > 0" % remap.name)
+        raise _Refusal("%s: feed rate must be > 0" % remap.name)
     if self.feed_mode == INVERSE_TIME:
-        return _fail(self, "%s: Cannot use inverse time feed with canned cycles" % remap.name)
+        raise _Refusal("%s: Cannot use inverse time feed with canned cycles" % remap.name)
     if self.cutter_comp_side:
-        return _fail(self, "%s: Cannot use canned cycles with cutter compensation on" % remap.name)
+        raise _Refusal("%s: Cannot use canned cycles with cutter compensation on" % remap.name)
     return INTERP_OK
 
 
@@ -312,36 +296,22 @@ def cycle_epilog(self, **words):
 
 # ---- lathe tools with wear, tool probing ------------------------------------------------------
 
+@_named("")
 def index_lathe_tool_with_wear(self, **words):
     """REMAP=T python=index_lathe_tool_with_wear: Txxyy loads tool xx, with the wear of entry 10000+yy."""
     if not self.task:
         yield INTERP_OK
         return
-    block = _block(self)
-    if not block.t_flag:
-        self.set_errormsg("T requires a tool number")
-        yield INTERP_ERROR
-        return
-    word = int(block.t_number)
+    word = int(_word(self, "t", "T requires a tool number"))
     if word < 100:
         word *= 100
     tool, wear = word // 100, 10000 + word % 100 if word % 100 else 0
     if tool == 0:
-        self.set_errormsg("T0 not valid")
-        yield INTERP_ERROR
-        return
-    if self.cutter_comp_side:
-        self.set_errormsg("Cannot change tools with cutter radius compensation on")
-        yield INTERP_ERROR
-        return
-    if self.find_tool_pocket(tool)[0] != INTERP_OK:
-        self.set_errormsg("T%d: tool entry not found" % tool)
-        yield INTERP_ERROR
-        return
-    if wear and self.find_tool_pocket(wear)[0] != INTERP_OK:
-        self.set_errormsg("Tool change aborted - No wear %d entry found in tool table" % wear)
-        yield INTERP_ERROR
-        return
+        raise _Refusal("T0 not valid")
+    _no_compensation(self)
+    _pocket(self, tool, "T%d: tool entry not found" % tool)
+    if wear:
+        _pocket(self, wear, "Tool change aborted - No wear %d entry found in tool table" % wear)
     self.params["tool"] = tool
     self.params["wear"] = wear
     try:
@@ -349,33 +319,27 @@ def index_lathe_tool_with_wear(self, **words):
         self.selected_pocket = _index(self, tool)
         emccanon.SELECT_TOOL(tool)
         if self.current_pocket != self.selected_pocket or self.current_tool != tool:
-            emccanon.CHANGE_TOOL()
-            self.current_pocket = self.selected_pocket
-            self.selected_pocket = -1
-            self.selected_tool = -1
-            self.toolchange_flag = True
+            _change_to_selected(self)
             yield INTERP_EXECUTE_FINISH
             self.set_tool_parameters()
         self.execute("G43 H%d" % tool)
         if wear:
             self.execute("G43.2 H%d" % wear)
     except InterpreterException:
-        self.set_errormsg("Tool change aborted (return code %.1f)" % self.return_value)
-        yield INTERP_ERROR
-        return
+        raise _Refusal("Tool change aborted (return code %.1f)" % self.return_value)
     component = getattr(self, "hal_tool_comp", None)
     if component is not None:
         component["tool"], component["wear"] = tool, wear
     yield INTERP_OK
 
 
+@_named("")
 def tool_probe_m6(self, **words):
     """REMAP=M6 modalgroup=6 python=tool_probe_m6: change, then measure the tool on the sensor of
     [TOOLSENSOR]; #5000 is the height of the work below the sensor's zero."""
     if not self.task:
         yield INTERP_OK
         return
-    imperial = self.params["_imperial"] == 1
     try:
         for number, value in zip((4999, 4998, 4997), (self.params["_x"], self.params["_y"], self.params["_z"])):
             self.parameters[number] = value
@@ -388,38 +352,33 @@ def tool_probe_m6(self, **words):
             yield INTERP_OK
             return
         sensor = {k: self.params["_ini[TOOLSENSOR]" + k] for k in ("X", "Y", "Z", "MAXPROBE", "SEARCH_VEL", "PROBE_VEL", "PROBEHEIGHT")}
+        # The values of the INI file are in its units, #5000 is in those of the program.
+        metric = self.params["_metric_machine"] != 0
+        work = self.parameters[5000] * (1 if metric == bool(self.params["_metric"]) else 25.4 if metric else 1 / 25.4)
+        step = 4.0 if metric else 0.25
         self.execute("M70")
+        self.execute("G21" if metric else "G20")
         self.execute("G90 G94 G49 G92.1")
-        self.execute("G53 G0 Z[#<_ini[TOOLSENSOR]Z>]")
-        self.execute("G53 G0 X[#<_ini[TOOLSENSOR]X>] Y[#<_ini[TOOLSENSOR]Y>]")
-        self.execute("F%f" % sensor["SEARCH_VEL"])
-        self.execute("G91 G38.2 Z%f" % sensor["MAXPROBE"])
-        yield INTERP_EXECUTE_FINISH
-        if self.parameters[5070] == 0 or self.return_value > 0.0:
-            self.execute("G90")
-            self.set_errormsg("tool_probe_m6 remap error:")
-            yield INTERP_ERROR
-            return
-        step = 0.25 if imperial else 4.0
-        self.execute("G91 G0 Z%f" % step)
-        self.execute("F%f" % sensor["PROBE_VEL"])
-        self.execute("G91 G38.2 Z%f" % (-2 * step))
-        yield INTERP_EXECUTE_FINISH
-        if self.parameters[5070] == 0:
-            self.execute("G90")
-            self.set_errormsg("tool_probe_m6 remap error:")
-            yield INTERP_ERROR
-            return
-        self.execute("G90 G53 G0 Z[#<_ini[TOOLSENSOR]Z>]")
-        height = self.parameters[5063] - sensor["PROBEHEIGHT"] + self.parameters[5000]
-        self.execute("G10 L1 P#5400 Z%f" % height)
+        self.execute("G53 G0 Z%f" % sensor["Z"])
+        self.execute("G53 G0 X%f Y%f" % (sensor["X"], sensor["Y"]))
+        for feed, distance in (sensor["SEARCH_VEL"], sensor["MAXPROBE"]), (sensor["PROBE_VEL"], -2 * step):
+            self.execute("F%f" % feed)
+            self.execute("G91 G38.2 Z%f" % distance)
+            yield INTERP_EXECUTE_FINISH
+            if self.parameters[5070] == 0 or self.return_value > 0.0:
+                self.execute("G90")
+                raise _Refusal("tool_probe_m6 remap error:")
+            if distance == sensor["MAXPROBE"]:
+                self.execute("G91 G0 Z%f" % step)
+        self.execute("G90 G53 G0 Z%f" % sensor["Z"])
+        self.execute("G10 L1 P#5400 Z%f" % (self.parameters[5063] - sensor["PROBEHEIGHT"] + work))
         self.execute("M72")
         self.execute("G43")
+    except _Refusal:
+        raise
     except Exception as e:
         print("tool_probe_m6:", e)
-        self.set_errormsg("tool_probe_m6 remap error.")
-        yield INTERP_ERROR
-        return
+        raise _Refusal("tool_probe_m6 remap error.")
     yield INTERP_OK
 
 

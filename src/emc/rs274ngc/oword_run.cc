@@ -387,6 +387,7 @@ int run_break(Setup &s, bool leave)
     if (l->type != O_WHILE && l->type != O_DO)
         FLOW_FAIL("%d: no matching while/do label: '%s' (found '%s' in line %d)", s.sequence_number, s.raw,
                   type_name(l->type), l->line);
+    if (!s.skipping.empty()) return INTERP_OK; // the loop is being left already
     l->leaving = leave;
     l->continuing = !leave;
     skip_to(s, s.block.o_name);
@@ -480,8 +481,8 @@ int execute_oword(Setup &s)
     case O_REPEAT: return s.skipping.empty() ? run_repeat(s) : int(INTERP_OK);
     case O_ENDWHILE: return run_loop_end(s, O_WHILE);
     case O_ENDREPEAT: return run_loop_end(s, O_REPEAT);
-    case O_BREAK: return s.skipping.empty() ? run_break(s, true) : int(INTERP_OK);
-    case O_CONTINUE: return s.skipping.empty() ? run_break(s, false) : int(INTERP_OK);
+    case O_BREAK: return run_break(s, true);
+    case O_CONTINUE: return run_break(s, false);
     default: return INTERP_OK;
     }
 }

@@ -46,6 +46,9 @@ for text, want in {
     got = rs274(text + "\nM2\n").error
     check(got == want or (text[:3] in ("G0 ", "m09") and got), f"{text!r}: {got!r}, not {want!r}")
 
+check(rs274("o1 repeat [0]\no1 break\no1 endrepeat\nM2\n").error == "2: no matching while/do label: 'o1 break' (found 'repeat' in line 1)", "break of a repeat")
+check(prints("o1 while [0]\no1 break\no1 continue\no1 endwhile\n#1=0\no2 do\n#1=[#1+1]\no2 while [#1 LT 2]\n(print,#1)\nM2\n") == ["2"], "a loop that is skipped")
+
 # FP-103
 run = rs274("o<outer> sub\no100 sub\no100 endsub\no<outer> endsub\nM2\n")
 check(run.error == "Nested subroutine definition" and "o100 sub" in run.err, f"FP-103: {run.err}")
