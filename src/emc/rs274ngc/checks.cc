@@ -141,7 +141,7 @@ int check_words(Setup &s, const Block &b)
         CHECK(b.has('f'), "F word used with a g33/g33.1");
     }
     if (motion == G_76) {
-        CHECK(!b.has('p'), "P word missing with G76");
+        CHECK(b.value('p', -1) == -1, "P word missing with G76");
         CHECK((b.present & IJK_WORDS) != IJK_WORDS, "I J or K words missing with G76");
     }
     return INTERP_OK;

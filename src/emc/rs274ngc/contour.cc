@@ -131,7 +131,7 @@ bool Contour::finish_corners()
 {
     for (size_t k = 1; k + 1 < elements.size(); ++k) {
         Element &corner = elements[k];
-        if (corner.kind != Element::FILLET && corner.kind != Element::CHAMFER) continue;
+        if (!corner.is_corner()) continue;
         Element &before = elements[k - 1], &after = elements[k + 1];
         double f = corner.size;
         Element a = shifted(before, f), b = shifted(after, f);
@@ -162,10 +162,8 @@ bool Contour::finish_corners()
             corner.kind = above ? Element::CCW : Element::CW;
         }
     }
-    // A corner at the end has nothing to round.
     for (size_t k = elements.size(); k-- > 1;)
-        if (elements[k].kind == Element::FILLET || elements[k].kind == Element::CHAMFER ||
-            elements[k].length() < SLACK)
+        if (elements[k].is_corner() || elements[k].length() < SLACK)
             elements.erase(elements.begin() + long(k));
     return true;
 }

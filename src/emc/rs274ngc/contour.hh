@@ -25,6 +25,7 @@ struct Element {
     double size = 0; // of a fillet or chamfer
 
     bool is_arc() const { return kind == CW || kind == CCW; }
+    bool is_corner() const { return kind == FILLET || kind == CHAMFER; }
     double length() const { return std::abs(end - start); }
     double radius() const { return std::abs(end - centre); }
 };

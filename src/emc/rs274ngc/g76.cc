@@ -107,9 +107,10 @@ int convert_g76(Setup &s)
         t.slope = -t.slope;
     }
     const int flags = b.has('l') ? int(b['l']) : 0;
-    t.entry = flags & 1;
-    t.exit = flags & 2;
-    t.taper_pitch = t.taper != 0 ? t.pitch * hypot(t.taper, k) / fabs(t.taper) : t.pitch;
+    const bool tapered = t.taper != 0; // L means nothing without E
+    t.entry = tapered && flags & 1;
+    t.exit = tapered && flags & 2;
+    t.taper_pitch = tapered ? t.pitch * hypot(t.taper, k) / fabs(t.taper) : t.pitch;
     t.target_z = end.tran.z + k * t.slope;
     const double degression = b.has('r') && b['r'] >= 1 ? b['r'] : 1.0;
     const int spring = b.has('h') ? std::max(int(b['h']), 0) : 0;

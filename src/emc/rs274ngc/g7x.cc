@@ -484,6 +484,8 @@ int convert_g7x(Setup &s, int g)
     const int left_mode = s.motion_mode;
     Contour contour;
     contour.elements = std::move(reader.elements);
+    // A corner at the end has nothing to round, not even with the line that leads out.
+    while (!contour.elements.empty() && contour.elements.back().is_corner()) contour.elements.pop_back();
     if (contour.elements.size() < 2) return INTERP_OK;
     if (g != G_70) {
         // A contour that ends inside the stock is led out of it.

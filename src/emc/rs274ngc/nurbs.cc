@@ -97,7 +97,7 @@ int convert_nurbs_point(Setup &s, int g)
           plane.second_letter);
     CHECK(!first && b.has('p') && !have_a, "Can specify P without %c and %c only for the first control point",
           plane.first_letter, plane.second_letter);
-    CHECK(b.has('p') ? b['p'] <= 0 : (!first && have_a), "Must specify positive weight P for every Control Point");
+    CHECK(!first && b.value('p', -1) <= 0, "Must specify positive weight P for every Control Point");
     CHECK(s.feed_mode == UNITS_PER_MINUTE && s.feed_rate == 0, "Cannot make a NURBS with 0 feedrate");
     s.motion_mode = g;
     if (b.has('l') && b['l'] > 3) n.order = unsigned(b['l']);
@@ -106,7 +106,6 @@ int convert_nurbs_point(Setup &s, int g)
         EmcPose end;
         TRY(find_ends(s, b, &end));
         n.points.push_back(point(end, plane, b.value('p', -1)));
-        end_at(s, end, plane);
     }
     return INTERP_OK;
 }
@@ -119,6 +118,11 @@ int convert_nurbs_end(Setup &s)
           n.order);
     update_tag(s);
     s.canon.NURBS_G5_FEED(line_of(s), n.points, n.order, s.plane);
+    SplinePlane plane;
+    if (spline_plane(s.plane, &plane)) { // until here the machine was at the first point
+        axis(s.current, plane.first) = n.points.back().x;
+        axis(s.current, plane.second) = n.points.back().y;
+    }
     n.points.clear();
     n.order = 3;
     s.motion_mode = -1;
