@@ -454,7 +454,7 @@ class Session:
     def display_command(self):
         program, extra = self.display_program, self.display_args + self.options.extra
         if program in ("tkemc", "tklinuxcnc"):
-            return ["wish8.6", str(self.tree.tcl / "tklinuxcnc.tcl"), "-ini", self.ini_path] + extra
+            return ["tklinuxcnc", "-ini", self.ini_path] + extra
         if program == "dummy":
             print("DUMMY DISPLAY MODULE, press <ENTER> to continue.", flush=True)
             return ["sh", "-c", "read line || :"]

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Windows that tklinuxcnc opens beside itself."""
+
+import tkinter as tk
+from tkinter import messagebox, ttk
+
+import linuxcnc
+
+from .machine import LETTERS
+
+PLOT_MS, PLOT_POINTS = 100, 20000
+OFFSETS = (("work (G5x)", "g5x_offset"), ("G92", "g92_offset"), ("tool", "tool_offset"))
+
+
+class Popups:
+    def __init__(self, window):
+        self.w, self.shown = window, []
+
+    def open(self, title):
+        top = tk.Toplevel(self.w.root)
+        top.title(title)
+        top.transient(self.w.root)
+        top.bind("<Escape>", lambda event: top.destroy())
+        return top
+
+    def text(self, title, text):
+        top, px = self.open(title), self.w.style.px
+        ttk.Button(top, text="Close", command=top.destroy).pack(side="bottom", pady=px(6))
+        box = tk.Text(top, width=84, height=24, wrap="none")
+        bar = ttk.Scrollbar(top, command=box.yview)
+        box.configure(yscrollcommand=bar.set)
+        bar.pack(side="right", fill="y")
+        box.pack(fill="both", expand=True)
+        box.insert("end", text)
+        box.configure(state="disabled")
+        return top
+
+    def message(self, text, error):
+        """Stays until OK; the machine goes on. The same text is not shown twice."""
+        self.shown = [(t, top) for t, top in self.shown if top.winfo_exists()]
+        if any(t == text for t, _ in self.shown):
+            return
+        top, px = self.open("Error" if error else "Message"), self.w.style.px
+        ttk.Label(top, text=text, wraplength=px(480), padding=px(16), style="Bad.TLabel" if error else "TLabel").pack()
+        ttk.Button(top, text="OK", command=top.destroy).pack(pady=(0, px(10)))
+        self.shown.append((text, top))
+
+    def offsets(self):
+        """Offsets in force, and the file of parameters as it was saved last."""
+        m = self.w.m
+        m.stat.poll()
+        lines = ["Offset      " + "".join(f"{c:>12}" for c in m.letters)]
+        for name, attribute in OFFSETS:
+            values = getattr(m.stat, attribute)
+            lines.append(f"{name:12}" + "".join("%12.4f" % values[LETTERS.index(c)] for c in m.letters))
+        name = m.ini.find("RS274NGC", "PARAMETER_FILE")
+        if name:
+            try:
+                lines += ["", f"Variables ({name}):"] + (m.path.parent / name).read_text(errors="replace").splitlines()
+            except OSError as error:
+                lines.append(f"{name}: {error.strerror}")
+        self.text("Offsets and Variables", "\n".join(lines))
+
+    def mdi(self, text):
+        m = self.w.m
+        if m.mode(linuxcnc.MODE_MDI):
+            m.command.mdi(text)
+            m.command.wait_complete(10.0)
+            m.mode(linuxcnc.MODE_MANUAL)
+
+    def form(self, title, fields, action):
+        """Entries with names; action gets the numbers that were typed."""
+        top, px = self.open(title), self.w.style.px
+        box = ttk.Frame(top, padding=px(10))
+        box.pack()
+        entries = {}
+        for row, (name, value) in enumerate(fields.items()):
+            ttk.Label(box, text=name).grid(row=row, column=0, sticky="w", padx=px(4))
+            entries[name] = ttk.Entry(box, width=14, justify="right")
+            entries[name].insert(0, value)
+            entries[name].grid(row=row, column=1, pady=px(2))
+
+        def accept(_event=None):
+            try:
+                values = {name: float(e.get()) for name, e in entries.items() if e.get().strip()}
+            except ValueError as error:
+                messagebox.showerror(title, str(error), parent=top)
+                return
+            top.destroy()
+            action(values)
+        buttons = ttk.Frame(top, padding=px(6))
+        buttons.pack()
+        ttk.Button(buttons, text="OK", command=accept).pack(side="left", padx=px(4))
+        ttk.Button(buttons, text="Cancel", command=top.destroy).pack(side="left", padx=px(4))
+        top.bind("<Return>", accept)
+        next(iter(entries.values())).focus_set()
+        self.last_form = (top, entries, accept)
+
+    def set_coordinates(self):
+        """The position becomes the typed one (G92)."""
+        def act(values):
+            if values:
+                self.mdi("G92 " + " ".join(f"{name}{value:.6f}" for name, value in values.items()))
+        self.form("Set Coordinates", dict.fromkeys(self.w.m.letters, ""), act)
+
+    def tool_offset(self):
+        """Length and diameter of a tool go into the tool table."""
+        m = self.w.m
+        m.stat.poll()
+        tool = m.stat.tool_table[0] if m.stat.tool_table else None
+
+        def act(values):
+            number = int(values.get("Tool", 0))
+            if number > 0:
+                self.mdi(f"G10 L1 P{number} Z{values.get('Length', 0):.6f} R{values.get('Diameter', 0) / 2:.6f}")
+        self.form("Tool offset", {"Tool": str(max(m.stat.tool_in_spindle, 0)), "Length": f"{tool.zoffset:.4f}" if tool else "0",
+                                  "Diameter": f"{tool.diameter:.4f}" if tool else "0"}, act)
+
+    def backplot(self):
+        """The way of the tool from above, as it goes."""
+        top, style, m = self.open("Backplot"), self.w.style, self.w.m
+        canvas = tk.Canvas(top, width=style.px(420), height=style.px(360), background=style.colours["field"], highlightthickness=0)
+        canvas.pack(fill="both", expand=True)
+        points = []
+        ttk.Button(top, text="Clear", command=points.clear).pack(pady=style.px(4))
+
+        def draw():
+            place = m.stat.actual_position[:2]
+            if not points or points[-1] != place:
+                points.append(place)
+                del points[:-PLOT_POINTS]
+                low = [min(p[i] for p in points) for i in (0, 1)]
+                size = max(max(p[i] for p in points) - low[i] for i in (0, 1)) or 1.0
+                scale = min(canvas.winfo_width(), canvas.winfo_height()) * 0.9 / size
+                canvas.delete("all")
+                if len(points) > 1:
+                    canvas.create_line(*(v for x, y in points for v in (10 + (x - low[0]) * scale, canvas.winfo_height() - 10 - (y - low[1]) * scale)),
+                                       fill=style.colours["chart"])
+            if top.winfo_exists():
+                top.after(PLOT_MS, draw)
+        draw()
