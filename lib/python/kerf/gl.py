@@ -63,13 +63,13 @@ class Frame(tk.Frame):
         super().__init__(parent, **options)
         self.window = None
 
-    def open(self):
-        """Makes the context. Raises RuntimeError, which says why there is none."""
+    def open(self, classic=False):
+        """Makes the context; a classic one has fixed functions and depth. Raises RuntimeError, which says why there is none."""
         import kerf_glx
         self.update_idletasks()
         parent = self.winfo_id()         # made now, if it was not
         self.winfo_pointerx()            # an answer of the X server: it knows the window
-        self.window = kerf_glx.Window(self.winfo_screen(), parent)
+        self.window = kerf_glx.Window(self.winfo_screen(), parent, classic)
         self.window.make_current()
 
     def close(self):

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Bodies from files: STL and OBJ, both as text."""
+
+import numpy as np
+
+from .shapes import flat_normals, triangles
+
+
+def lines_of(filename, data):
+    """Lines of a file, of a text, or of a list of lines."""
+    if data is None:
+        with open(filename, encoding="latin-1") as file:
+            return file.read().splitlines()
+    return data.splitlines() if isinstance(data, str) else list(data)
+
+
+class File:
+    """Triangles that a file describes. Raises OSError, and ValueError with file and line."""
+
+    def __init__(self, filename=None, data=None):
+        if filename is None and data is None:
+            raise TypeError(f"{type(self).__name__}: a filename or data is needed")
+        self.source = filename or "data"
+        self.points, self.normals = [], []
+        for number, line in enumerate(lines_of(filename, data), 1):
+            try:
+                self.take(line.split())
+            except (ValueError, IndexError):
+                raise ValueError(f"{self.source}:{number}: {line.strip()!r} cannot be read") from None
+        if len(self.points) % 3:
+            raise ValueError(f"{self.source}: a triangle has no three corners")
+        self.arrays = self.finish(np.array(self.points, dtype=float).reshape(-1, 3), np.array(self.normals, dtype=float).reshape(-1, 3))
+
+    def finish(self, points, normals):
+        """All-zero normals are computed from the corners."""
+        missing = ~normals.any(axis=1)
+        if missing.any():
+            normals[missing] = flat_normals(points)[missing]
+        return points, normals
+
+    def draw(self):
+        if len(self.arrays[0]):
+            triangles(*self.arrays)
+
+
+class AsciiSTL(File):
+    def take(self, words):
+        if words[:1] == ["facet"]:
+            self.normal = [float(w) for w in words[2:5]] if len(words) >= 5 else [0, 0, 0]
+        elif words[:1] == ["vertex"]:
+            self.points.append([float(words[1]), float(words[2]), float(words[3])])
+            self.normals.append(getattr(self, "normal", [0, 0, 0]))
+
+
+class AsciiOBJ(File):
+    """Only v, vn and f of three corners count."""
+
+    def take(self, words):
+        if not hasattr(self, "v"):
+            self.v, self.vn = [], []
+        if words[:1] == ["v"]:
+            self.v.append([float(w) for w in words[1:4]])
+        elif words[:1] == ["vn"]:
+            self.vn.append([float(w) for w in words[1:4]])
+        elif words[:1] == ["f"]:
+            for word in words[1:4]:
+                corner = word.split("/")
+                self.points.append(self.at(self.v, corner[0]))
+                self.normals.append(self.at(self.vn, corner[2]) if len(corner) > 2 and corner[2] else [0, 0, 0])
+
+    def at(self, found, text):
+        """Numbers count from 1, or backwards from -1."""
+        number = int(text)
+        if number == 0:
+            raise ValueError
+        return found[number - 1 if number > 0 else number]

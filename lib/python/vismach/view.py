@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The window of a machine: camera, mouse, trace of the tool."""
+
+import math
+import os
+import signal
+import sys
+import tkinter as tk
+
+import hal
+import numpy as np
+from kerf import gl
+from OpenGL import GL, GLU
+
+from .hud import Hud
+from .parts import invert, visit
+
+REDRAW_MS = 100
+MAX_TRACE = 16000
+TRACE_COLOR, TRACE_WIDTH = (1, .5, .5), 2
+BACKGROUND = 0.08, 0.1, 0.14, 1
+FIELD_DEG = 30          # of view
+ZOOM_STEP = 1.1
+MIN_ZOOM, MAX_ZOOM = 0.02, 50
+
+
+class Camera:
+    """Looks at a centre from a distance; lat and lon in degrees."""
+
+    def __init__(self, size, lat=0, lon=0):
+        self.size, self.lat, self.lon = size, lat, lon
+        self.zoom, self.pan_x, self.pan_y = 1.0, 0.0, 0.0
+        self.least, self.most = -180, 180
+
+    def rotate(self, dx, dy):
+        """Pixels of the mouse."""
+        self.lat = min(max(self.lat + dy * 0.5, self.least), self.most)
+        self.lon = (self.lon + dx * 0.5) % 360
+
+    def pan(self, dx, dy, height):
+        scale = 2 * 3 * self.size * math.tan(math.radians(FIELD_DEG / 2)) / max(height, 1) / self.zoom
+        self.pan_x += dx * scale
+        self.pan_y -= dy * scale
+
+    def change_zoom(self, factor):
+        self.zoom = min(max(self.zoom * factor, MIN_ZOOM), MAX_ZOOM)
+
+    def apply(self, width, height):
+        distance = 3 * self.size
+        GL.glMatrixMode(GL.GL_PROJECTION)
+        GL.glLoadIdentity()
+        field = math.degrees(2 * math.atan(math.tan(math.radians(FIELD_DEG / 2)) / self.zoom))
+        GLU.gluPerspective(field, width / max(height, 1), 0.01 * self.size, 10 * self.size)
+        GL.glMatrixMode(GL.GL_MODELVIEW)
+        GL.glLoadIdentity()
+        GL.glLightfv(GL.GL_LIGHT0, GL.GL_POSITION, (1, 2, 3, 0))        # goes with the eye
+        GL.glTranslated(self.pan_x, self.pan_y, -distance)
+        GL.glRotated(self.lat, 1, 0, 0)
+        GL.glRotated(self.lon, 0, 1, 0)
+        GL.glRotated(-90, 1, 0, 0)          # z of a machine is up
+
+
+class Trace:
+    """Where the tool has been in the frame of the work."""
+
+    def __init__(self, size):
+        """Points nearer than a hundred thousandth of the size are the same (matrices of OpenGL are that exact)."""
+        self.points, self.near = [], size * 1e-5
+
+    def add(self, tool, work):
+        point = tuple((invert(work.t) @ tool.t @ (0, 0, 0, 1))[:3])
+        if not all(math.isfinite(v) for v in point):
+            return
+        if not self.points or any(abs(a - b) > self.near for a, b in zip(point, self.points[-1])):
+            if len(self.points) >= MAX_TRACE:
+                del self.points[:MAX_TRACE // 10]
+            self.points.append(point)
+
+    def clear(self):
+        self.points.clear()
+
+    def draw(self, work):
+        if len(self.points) < 2:
+            return
+        GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_CURRENT_BIT | GL.GL_LINE_BIT)
+        GL.glDisable(GL.GL_LIGHTING)
+        GL.glLineWidth(TRACE_WIDTH)
+        GL.glColor3d(*TRACE_COLOR)
+        GL.glPushMatrix()
+        GL.glLoadMatrixd(np.ascontiguousarray(work.t.T))
+        GL.glEnableClientState(GL.GL_VERTEX_ARRAY)
+        GL.glVertexPointer(3, GL.GL_DOUBLE, 0, np.array(self.points))
+        GL.glDrawArrays(GL.GL_LINE_STRIP, 0, len(self.points))
+        GL.glDisableClientState(GL.GL_VERTEX_ARRAY)
+        GL.glPopMatrix()
+        GL.glPopAttrib()
+
+
+class View:
+    """The picture in a frame. Raises RuntimeError where there is no OpenGL."""
+
+    def __init__(self, root, model, tool, work, size, hud, lat, lon):
+        self.model, self.tool, self.work, self.hud = model, tool, work, hud
+        self.camera, self.trace = Camera(size, lat, lon), Trace(size)
+        self.frame = gl.Frame(root, width=600, height=600)
+        self.frame.pack(fill="both", expand=True)
+        self.frame.open(classic=True)
+        self.mouse = None
+        for button in (1, 2, 3):
+            self.frame.bind(f"<ButtonPress-{button}>", self.grip)
+        self.frame.bind("<B1-Motion>", lambda e: self.drag(e, self.camera.rotate if e.state & 1 else
+                                                           self.drag_zoom if e.state & 4 else self.pan))
+        self.frame.bind("<B2-Motion>", lambda e: self.drag(e, self.camera.rotate))
+        self.frame.bind("<B3-Motion>", lambda e: self.drag(e, self.drag_zoom))
+        for event in ("<Button-4>", "<Button-5>", "<MouseWheel>"):
+            self.frame.bind(event, self.wheel)
+        self.frame.bind("<Configure>", lambda _: self.redraw())
+
+    def grip(self, event):
+        self.mouse = event.x, event.y
+
+    def drag(self, event, action):
+        if self.mouse:
+            action(event.x - self.mouse[0], event.y - self.mouse[1])
+            self.grip(event)
+            self.redraw()
+
+    def pan(self, dx, dy):
+        self.camera.pan(dx, dy, self.frame.winfo_height())
+
+    def drag_zoom(self, _dx, dy):
+        self.camera.change_zoom(ZOOM_STEP ** (-dy / 10))
+
+    def wheel(self, event):
+        self.camera.change_zoom(ZOOM_STEP if event.num == 4 or event.delta > 0 else 1 / ZOOM_STEP)
+        self.redraw()
+
+    def paint(self, width, height):
+        """Draws all into the present buffer."""
+        GL.glViewport(0, 0, width, height)
+        GL.glClearColor(*BACKGROUND)
+        GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
+        for what in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_LIGHT0, GL.GL_COLOR_MATERIAL, GL.GL_NORMALIZE, GL.GL_BLEND):
+            GL.glEnable(what)
+        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        GL.glLightModeli(GL.GL_LIGHT_MODEL_TWO_SIDE, 1)
+        GL.glLightModelfv(GL.GL_LIGHT_MODEL_AMBIENT, (.35, .35, .35, 1))
+        GL.glLightfv(GL.GL_LIGHT0, GL.GL_DIFFUSE, (.75, .75, .75, 1))
+        GL.glColorMaterial(GL.GL_FRONT_AND_BACK, GL.GL_AMBIENT_AND_DIFFUSE)
+        GL.glColor3d(.7, .7, .7)
+        self.camera.apply(width, height)
+        visit(self.model)
+        self.trace.add(self.tool, self.work)
+        self.trace.draw(self.work)
+        self.hud.draw(height)
+
+    def redraw(self):
+        if self.frame.window is None:
+            return
+        width, height = max(self.frame.winfo_width(), 1), max(self.frame.winfo_height(), 1)
+        self.frame.window.resize(width, height)
+        self.frame.window.make_current()
+        self.paint(width, height)
+        self.frame.window.swap()
+
+
+def main(model, tool, work, size=10, hud=0, rotation_vectors=None, lat=0, lon=0):
+    """Shows a machine until its window is closed, or SIGTERM or SIGINT come.
+
+    tool, work: captures; their distance is traced. size: of the machine. hud: a Hud, or anything else for none.
+    rotation_vectors is accepted for scripts that give it.
+    """
+    try:
+        root = tk.Tk(className="vismach")
+        root.title(os.path.basename(sys.argv[0]) or "vismach")
+        view = View(root, model, tool, work, size, hud if isinstance(hud, Hud) else Hud(), lat, lon)
+        component = hal.component("vismach")
+    except (tk.TclError, RuntimeError, ImportError) as error:
+        sys.exit(f"vismach: {error}")
+    except hal.error:
+        sys.exit("vismach: another vismach program is running: only one can")
+    component.newpin("plotclear", hal.HAL_BIT, hal.HAL_IN)
+    component.ready()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: root.destroy())
+    was_clear = [False]
+
+    def poll():
+        try:
+            clear = component["plotclear"]
+            if clear and not was_clear[0]:
+                view.trace.clear()
+            was_clear[0] = clear
+            view.redraw()
+        except RuntimeError as error:       # HAL was unloaded
+            print(f"vismach: {error}", file=sys.stderr)
+            root.destroy()
+            return
+        root.after(REDRAW_MS, poll)
+    root.protocol("WM_DELETE_WINDOW", root.destroy)
+    poll()
+    try:
+        root.mainloop()
+    finally:
+        component.exit()
