@@ -1,0 +1,3 @@
+#!/bin/bash
+# See test.py.
+exec /usr/bin/python3 test.py
