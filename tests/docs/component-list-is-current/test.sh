@@ -9,7 +9,8 @@ cd "$top"
 /usr/bin/python3 -B src/hal/components/conv_gen.py "$folder/conv"
 export PYTHONPATH=src/hal/utils
 pages="$folder/conv/*.comp src/hal/components/*.comp src/hal/components/man/*.adoc"
-/usr/bin/python3 -B src/hal/components/manuals.py list $pages | diff docs/components.md - && echo "list is current"
+/usr/bin/python3 -B src/hal/components/manuals.py list $pages > "$folder/list"
+diff docs/components.md "$folder/list" && echo "list is current"
 /usr/bin/python3 -B src/hal/components/manuals.py man "$folder" $pages
 for page in "$folder"/man?/*; do
     if command -v groff > /dev/null; then groff -man -Tutf8 -ww -z "$page" 2>&1; fi

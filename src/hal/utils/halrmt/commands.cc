@@ -286,26 +286,33 @@ bool get_lock(Context &x)
     return true;
 }
 
+/// The bits that all words mean together; -1 after an error.
 int lock_bits(Context &x)
 {
-    for (auto &w : lock_words)
-        if (!strcasecmp(w.word, x.args[0].c_str())) return w.bits;
-    x.c.error(strf("Invalid lock '%s'", x.args[0].c_str()));
-    return 0;
+    int bits = HAL_LOCK_NONE;
+    for (auto &arg : x.args) {
+        auto is = [&](const auto &w) { return !strcasecmp(w.word, arg.c_str()); };
+        auto w = std::find_if(std::begin(lock_words), std::end(lock_words), is);
+        if (w != std::end(lock_words)) {
+            bits |= w->bits;
+        } else if (strcasecmp(arg.c_str(), "none")) {
+            x.c.error(strf("Invalid lock '%s'", arg.c_str()));
+            return -1;
+        }
+    }
+    return bits;
 }
 
 bool set_lock(Context &x)
 {
-    if (!strcasecmp(x.args[0].c_str(), "none")) return hal_set_lock(HAL_LOCK_NONE) == 0;
     int bits = lock_bits(x);
-    return bits && hal_set_lock(hal_get_lock() | bits) == 0;
+    return bits >= 0 && hal_set_lock(bits ? hal_get_lock() | bits : HAL_LOCK_NONE) == 0;
 }
 
 bool set_unlock(Context &x)
 {
-    if (!strcasecmp(x.args[0].c_str(), "none")) return true;
     int bits = lock_bits(x);
-    return bits && hal_set_lock(hal_get_lock() & ~bits) == 0;
+    return bits >= 0 && hal_set_lock(hal_get_lock() & ~bits) == 0;
 }
 
 /* ---- Changes of HAL ---- */
@@ -581,7 +588,7 @@ const Sub subs[] = {
     {"LINKSP", nullptr, 0, set_linksp, 2, Access::Enable, "<signal> <pin>"},
     {"LOADRT", nullptr, 0, set_loadrt, 1, Access::Enable, "<module> [parameters]"},
     {"LOADUSR", nullptr, 0, set_loadusr, 1, Access::Enable, "[-W] [-w] [-i] [-n name] <program> [arguments]"},
-    {"LOCK", get_lock, 0, set_lock, 1, Access::Enable, "{all|load|config|params|run|tune|none}"},
+    {"LOCK", get_lock, 0, set_lock, 1, Access::Enable, "{all|load|config|params|run|tune|none}..."},
     {"NET", get_net, 1, set_net, 2, Access::Hello, "<signal> <pin>..."},
     {"NEWSIG", nullptr, 0, set_newsig, 2, Access::Enable, "<signal> <type>"},
     {"PARAM", get_params<false>, 1, nullptr, 0, Access::None, "<parameter>"},
@@ -607,7 +614,7 @@ const Sub subs[] = {
     {"TIMESTAMP", get_timestamp, 0, set_timestamp, 1, Access::None, "{on|off} [{on|off}]"},
     {"UNLINKP", nullptr, 0, set_unlinkp, 1, Access::Enable, "<pin>"},
     {"UNLOAD", nullptr, 0, set_unload, 1, Access::Enable, "<component>|all"},
-    {"UNLOCK", nullptr, 0, set_unlock, 1, Access::Enable, "{all|load|config|params|run|tune|none}"},
+    {"UNLOCK", nullptr, 0, set_unlock, 1, Access::Enable, "{all|load|config|params|run|tune|none}..."},
     {"VERBOSE", get_verbose, 0, set_switch<&Connection::verbose>, 1, Access::Hello, "{on|off}"},
 };
 
