@@ -192,6 +192,8 @@ proc ::axis::build_menu {} {
     $m add separator
     add $m radiobutton "Tool touch off to workpiece" -variable tto_g11 -value 0 -command toggle_tto_g11
     add $m radiobutton "Tool touch off to fixture" -variable tto_g11 -value 1 -command toggle_tto_g11
+    $m add separator
+    add $m command "Undo touch off" -command undo_touch_off
 
     build_view_menu
     add .menu.help command "_About AXIS" -command {::axis::show_window .about}
@@ -524,6 +526,7 @@ proc update_state {args} {
     state "$on && !($idle)" .toolbar.program_pause .toolbar.program_stop {.menu.machine "Stop"}
     state {$::has_ladder} {.menu.file "_Ladder Editor..."}
     state "$ready && \$::highlight_line > 0" {.menu.machine "Ru_n from selected line"}
+    state "$ready && \[::axis::can_undo\]" {.menu.machine "Undo touch off"}
     relief {$::task_state == $::STATE_ESTOP} .toolbar.machine_estop
     relief $on .toolbar.machine_power
     relief "!($idle)" .toolbar.program_run

@@ -14,18 +14,21 @@ from kerf import clock, gl
 from kerf.tree import Tree
 
 from . import dialogs, program, remote
+from .dro import SYSTEMS
 from .follow import FollowPart
 from .jog import speed
 from .opening import OpeningPart
 from .panels import PanelsPart
 from .pins import PinsPart
 from .prefs import Preferences
+from .report import Recorder
 from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
-from .touchoff import Checker, brackets, scale_text, unit_text
+from .touchoff import G21_ACTIVE, Checker, brackets, scale_text, unit_text
 from .usercode import UserPart
 from .variables import Variables
 from .window import WindowPart
 
+OFTEN = ("redraw_soon", "redraw", "redraw_dro")      # not worth a note
 STATUS_TRIES = 9
 MAXVEL_QUIET_S = 1.0     # after an own change the slider does not follow the status
 NO_STATUS = ("A configuration error is preventing LinuxCNC from starting.\n"
@@ -39,6 +42,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.root = root
         self.probe = gl.Probe()
         self.ini = linuxcnc.ini(ini_path)
+        self.recorder = Recorder(ini_path, Tree.find().version())
+        root.report_callback_exception = self.callback_failed
         self.settings = read(self.ini)
         self.settings.ini_path = ini_path
         self.stat, self.command = linuxcnc.stat(), linuxcnc.command()
@@ -54,7 +59,10 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.joints_shown = None
         self.last_increment = None
         self.maxvel_quiet_until = 0.0
+        self.stale_since = None      # when offsets changed that the preview does not know
+        self.select_moved = self.settings.flag("DISPLAY", "SELECT_MOVED_AXIS")
         self.own_values = {}
+        self.undo_lines = None   # MDI lines that take the last touch off back
         self.children = []
         self.place = ""          # file and line of a subroutine that runs
         self.panel = None
@@ -83,7 +91,11 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
 
     def guarded(self, function):
         """The function for Tcl: what goes wrong is shown to the operator, never a traceback on the screen."""
+        name = getattr(function, "__name__", str(function))
+
         def call(*args):
+            if name not in OFTEN:
+                self.recorder.note(name, *args)
             try:
                 result = function(*args)
                 return "" if result is None else result
@@ -93,10 +105,23 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
                 if self.root.children:
                     raise
             except Exception as e:
-                traceback.print_exc()
-                self.notifications.add("error", f"{type(e).__name__}: {e}")
+                self.failed(e)
             return ""
         return call
+
+    def failed(self, error):
+        """A fault of the screen's own code or of a user's: told, reported, and nothing ends."""
+        traceback.print_exc()
+        path = self.recorder.write(traceback.format_exc())
+        self.notifications.add("error", f"{type(error).__name__}: {error}" + (f"\n{self.translate('Report:')} {path}" if path else ""))
+
+    def callback_failed(self, kind, error, trace):
+        """What Tk calls for exceptions of bindings and timers."""
+        text = "".join(traceback.format_exception(kind, error, trace))
+        print(text, file=sys.stderr)
+        if not isinstance(error, tk.TclError) or self.root.children:
+            path = self.recorder.write(text)
+            self.notifications.add("error", f"{kind.__name__}: {error}" + (f"\n{self.translate('Report:')} {path}" if path else ""))
 
     def running(self):
         self.stat.poll()
@@ -315,21 +340,26 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
             self.command.wait_complete()
         return True
 
+    def active_system(self):
+        """Number of the coordinate system in force, 1 to 9."""
+        return self.stat.g5x_index if 1 <= self.stat.g5x_index <= 9 else 1
+
     def touch_off(self, tool, value=None):
+        """Sets the offset of the chosen axis so that it stands at a value; asks for it when there is none."""
         s, _ = self.settings, self.translate
         letter = self.vars.ja_rbutton.get().upper()
         if not self.manual_ok() or letter not in s.axes or (tool and self.stat.tool_in_spindle <= 0):
             return
-        before = self.stat.task_mode
+        before, number = self.stat.task_mode, self.stat.tool_in_spindle
         metric = bool(self.vars.metric.get())
         actual = s.find(f"AXIS_{letter}", "TOUCHOFF_ACTUAL")
         if value is None:
-            title = f"Tool {self.stat.tool_in_spindle} TouchOff" if tool else _("Touch Off (system)") if actual is None \
+            title = _("Tool %d TouchOff") % number if tool else _("Touch Off (system)") if actual is None \
                 else _("Touch Off (system ACTUAL)")
             var = os.path.join(self.loader.folder, "touchoff.var")
             dialog = dialogs.Touchoff(self.root, title, _("Enter %s coordinate relative to workpiece:") % letter, 0.0,
                                       unit_text(letter, s, self.stat, metric), Checker(s, var),
-                                      None if tool else self.vars.touch_off_system.get())
+                                      None if tool else self.vars.touch_off_system.get(), self.touch_off_note(letter, tool), _)
             answer = dialog.wait(dialog.entry)
             if answer is None:
                 return
@@ -339,18 +369,70 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         elif brackets(value):
             return
         scale = scale_text(letter, s, self.stat, metric)
+        at = LETTERS.index(letter)
         if tool:
             form = 11 if self.vars.tto_g11.get() else 10
-            done = self.mdi_lines(f"G10 L{form} P{self.stat.tool_in_spindle} {letter.lower()}[[{value}]*{scale}]", "G43")
+            place, old = _("Tool %d") % number, self.stat.tool_table[0][1 + at]
+            undo = [f"G10 L1 P{number} {letter}{self.in_program_units(letter, old)}", "G43"]
+            done = self.mdi_lines(f"G10 L{form} P{number} {letter.lower()}[[{value}]*{scale}]", "G43")
         else:
             if actual is not None:
-                at = self.stat.actual_position[LETTERS.index(letter)]
-                value = str(float(value) - at if actual.upper() == "MINUS" else float(value) + at)
-            done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get()} {letter.lower()}[[{value}]*{scale}]")
+                here = self.stat.actual_position[at]
+                value = str(float(value) - here if actual.upper() == "MINUS" else float(value) + here)
+            system = int(self.vars.touch_off_system.get().split()[0][1:]) or self.active_system()
+            place, old = SYSTEMS[system], None
+            if system == self.active_system():
+                old = self.stat.g5x_offset[at]
+                undo = [f"G10 L2 P{system} {letter}{self.in_program_units(letter, old)}"]
+            done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get().split()[0]} {letter.lower()}[[{value}]*{scale}]")
         if done:
             self.ensure_mode(before)
             self.set_motion_teleop(1)
             self.reload_file(False)
+            self.tell_touch_off(letter, place, old, at, tool, undo if old is not None else None)
+
+    def touch_off_note(self, letter, tool):
+        """What the dialog says below the question: which axis, where it stands, what would change."""
+        _, at = self.translate, LETTERS.index(letter)
+        angular = self.settings.axis_type(letter) == "ANGULAR"
+
+        def shown(value):
+            return "%.4f" % (value if angular else self.to_display(value))
+        if tool:
+            return _("%s offset of the tool now: %s") % (letter, shown(self.stat.tool_table[0][1 + at]))
+        system = SYSTEMS[self.active_system()]
+        return _("%s is active; its %s offset now: %s") % (system, letter, shown(self.stat.g5x_offset[at]))
+
+    def in_program_units(self, letter, value):
+        """A value of machine units as a number of the program's units."""
+        if self.settings.axis_type(letter) == "ANGULAR":
+            return "%.6f" % value
+        mm = value / self.settings.units_per_mm
+        return "%.8f" % (mm if G21_ACTIVE in self.stat.gcodes else mm / MM_PER_INCH)
+
+    def tell_touch_off(self, letter, place, old, at, tool, undo):
+        """Axis, old and new value as a message; the way back is kept."""
+        self.stat.poll()
+        self.undo_lines = undo
+        if undo is None:
+            return
+        new = self.stat.tool_table[0][1 + at] if tool else self.stat.g5x_offset[at]
+        angular = self.settings.axis_type(letter) == "ANGULAR"
+        text = ["%.4f" % (v if angular else self.to_display(v)) for v in (old, new)]
+        self.notifications.add("info", self.translate("Touch off: %s, %s offset: before %s, now %s. Machine > Undo touch off takes it back.") % (place, letter, *text))
+        self.root.tk.call("update_state")
+
+    def undo_touch_off(self):
+        """The offset that the last touch off replaced, once."""
+        lines, self.undo_lines = self.undo_lines, None
+        if lines:
+            before = self.stat.task_mode
+            if self.mdi_lines(*lines):
+                self.ensure_mode(before)
+                self.set_motion_teleop(1)
+                self.reload_file(False)
+            else:
+                self.undo_lines = lines
 
     def custom_grid(self):
         dialog = dialogs.Touchoff(self.root, self.translate("Custom Grid"), self.translate("Enter grid size"), "", "", self.grid_value)
@@ -403,6 +485,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.make_panel()
         self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)
         self.logging.start()
+        self.jogger.guard.start()
         self.activate_ja_widget(self.settings.coordinates[0])
         self.show_title()
         initial = first_file or os.environ.get("AXIS_OPEN_FILE") or (self.settings.find("DISPLAY", "OPEN_FILE") or "").strip('"')
@@ -444,6 +527,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.root.destroy()
 
     def close(self):
+        self.jogger.guard.over = True
         self.logger.stop()
         self.logging.join(1.0)
         self.loader.close()

@@ -381,6 +381,9 @@ def make(app):
         def set_axis_offset(*event):
             app.touch_off(tool=False, value="0")
 
+        def undo_touch_off(*event):
+            app.undo_touch_off()
+
         def toggle_tto_g11(*event):
             app.prefs.putpref("tto_g11", v.tto_g11.get())
 

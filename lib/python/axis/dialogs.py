@@ -75,11 +75,13 @@ def ask(root, title, text, icon, default, *buttons, extra=None, escape=None, nam
 class Touchoff(Modal):
     """Asks for a number or an expression, and for a coordinate system unless `system` is None."""
 
-    def __init__(self, root, title, text, default, unit, check, system=None):
+    def __init__(self, root, title, text, default, unit, check, system=None, note=None, translate=str):
         super().__init__(root, title)
         self.check, self.unit = check, unit
         w = self.window
         tk.Label(w, text=text, anchor="w").pack(fill="x")
+        if note:
+            tk.Label(w, text=note, anchor="w").pack(fill="x")
         row = tk.Frame(w)
         row.pack(fill="x", pady=6)
         self.value = tk.StringVar(root, str(default))
@@ -90,18 +92,18 @@ class Touchoff(Modal):
         self.ink = self.shown.cget("foreground")
         self.system = None
         if system is not None:
-            self.system = tk.StringVar(root, next(s for s in SYSTEMS if s.startswith(system)))
+            self.system = tk.StringVar(root, next((s for s in SYSTEMS if s.startswith(system.split()[0])), SYSTEMS[0]))
             row = tk.Frame(w)
             row.pack(fill="x", pady=6)
-            tk.Label(row, text="Coordinate System:").pack(side="left")
+            tk.Label(row, text=translate("Coordinate System:")).pack(side="left")
             ttk.Combobox(row, textvariable=self.system, values=SYSTEMS, state="readonly", width=14).pack(side="left", padx=8)
             for n in range(9):
                 w.bind(f"<Alt-Key-{n + 1}>", lambda event, n=n: self.system.set(SYSTEMS[n]))
         row = tk.Frame(w)
         row.pack(pady=(12, 0))
-        self.ok = tk.Button(row, text="OK", width=10, command=self.accept)
+        self.ok = tk.Button(row, text=translate("OK"), width=10, command=self.accept)
         self.ok.pack(side="left", padx=6)
-        tk.Button(row, text="Cancel", width=10, command=lambda: self.answer(None)).pack(side="left", padx=6)
+        tk.Button(row, text=translate("Cancel"), width=10, command=lambda: self.answer(None)).pack(side="left", padx=6)
         for key in ("<Return>", "<KP_Enter>"):
             w.bind(key, lambda event: self.accept())
         w.bind("<Escape>", lambda event: self.answer(None))

@@ -11,8 +11,10 @@ import linuxcnc
 
 from .dro import active_codes, tool_text
 from .jog import position
+from .settings import LETTERS
 
 ERROR_POLL_MS = 200
+STALE_S = 0.3            # offsets must rest so long before the preview is read anew
 
 
 class FollowPart:
@@ -36,6 +38,7 @@ class FollowPart:
         """Shows the present status; False when the controller is gone and the screen ends."""
         try:
             self.stat.poll()
+            self.jogger.guard.beat()
             self.follow_status()
             self.preview.look()
         except linuxcnc.error as e:
@@ -70,6 +73,7 @@ class FollowPart:
         put("task_state_string", self.translate(names.get(s.task_state, "OFF")))
         self.follow_overrides()
         self.follow_modes()
+        self.follow_moved_axis()
         self.follow_line()
         self.look_at_pins()
         codes = active_codes(s)
@@ -106,12 +110,33 @@ class FollowPart:
                 self.activate_ja_widget("0" if joints else self.settings.coordinates[0])
         if s.motion_mode == linuxcnc.TRAJ_MODE_COORD and s.task_mode == linuxcnc.MODE_MANUAL and s.interp_state == linuxcnc.INTERP_IDLE:
             self.command.teleop_enable(1)
-        if self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON):
+        if self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON or s.task_mode != linuxcnc.MODE_MANUAL):
             self.jogger.stop_all()
         state = (s.task_state == linuxcnc.STATE_ON, s.interp_state == linuxcnc.INTERP_IDLE)
         if state == (True, True) and self.last_state not in (None, state) and s.task_mode == linuxcnc.MODE_AUTO:
             self.root.tk.call("set_mode_from_tab")
         self.last_state = state
+
+    def follow_offsets(self):
+        """FP-134: the preview follows offsets and rotation that were set by hand, once the machine is idle."""
+        if self.stale_since and time.monotonic() - self.stale_since > STALE_S and not self.loading and \
+                self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.task_mode != linuxcnc.MODE_AUTO:
+            self.stale_since = None
+            self.refresh_preview()
+
+    def follow_moved_axis(self):
+        """[DISPLAY]SELECT_MOVED_AXIS: the axis that a wheel moves is the one that is touched off."""
+        s = self.stat
+        if not self.select_moved or s.task_mode != linuxcnc.MODE_MANUAL or s.interp_state != linuxcnc.INTERP_IDLE:
+            return
+        if self.joints_shown or any(j["homing"] for j in s.joint[:self.settings.joints]):
+            return
+        if s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP:
+            moving = [c for c in self.settings.axes if abs(s.axis[LETTERS.index(c)]["velocity"]) > 1e-9]
+        else:
+            moving = [c for c in self.settings.axes if abs(s.joint[self.settings.joint_of(c)]["velocity"]) > 1e-9]
+        if len(moving) == 1 and moving[0].lower() != self.vars.ja_rbutton.get():
+            self.activate_ja_widget(moving[0])
 
     def follow_line(self):
         s = self.stat
@@ -149,6 +174,8 @@ class FollowPart:
             return
         still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle)
         if still != self.widget_signs.get("offsets"):
+            if "offsets" in self.widget_signs and still[:3] != self.widget_signs["offsets"][:3]:
+                self.stale_since = time.monotonic()
             self.widget_signs["offsets"] = still
             linuxcnc.gui_rot_offsets(*[a + b for a, b in zip(s.g5x_offset[:3], s.g92_offset[:3])])
             self.preview.dirty = True
@@ -168,10 +195,15 @@ class FollowPart:
         return -max(10, min(int(width / (0.62 * longest)), int(height / (1.25 * max(1, len(lines)))), 96))
 
     def poll_errors(self):
-        """Shows new messages now and every ERROR_POLL_MS; looks whether the file changed."""
+        """Looks around now and every ERROR_POLL_MS."""
+        self.look_around()
+        self.root.after(ERROR_POLL_MS, self.poll_errors)
+
+    def look_around(self):
+        """New messages; whether the file or the offsets changed."""
         self.show_errors()
         self.look_at_file()
-        self.root.after(ERROR_POLL_MS, self.poll_errors)
+        self.follow_offsets()
 
     def show_errors(self):
         try:

@@ -2,12 +2,15 @@
 """Jogging: which joint or axis, how fast, and that it stops. No widgets here.
 
 One jog has one owner (a key or a button). It ends when the owner lets go, when the window
-loses the focus, when the Manual tab is left, and when the machine stops answering.
+loses the focus, when the Manual tab is left, and when the machine stops answering. A guard, a
+thread of its own, ends it when the screen itself does not get on.
 """
 
 import math
+import threading
 
 import linuxcnc
+from kerf import clock
 
 from .settings import LETTERS, parse_increment
 
@@ -24,12 +27,42 @@ def position(value, top):
     return min(1.0, max(0.0, round(-200 / (math.log(value / (60 * top)) - 1)) / 200))
 
 
+GUARD_S = 0.05
+STALLED_S = 0.25         # a screen that did not get on for so long can not see that a key is let go
+
+
+class Guard(threading.Thread):
+    """Stops the jogs of a screen that stalls; beat() is called in each update cycle."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.command = linuxcnc.command()
+        self.jogs = {}           # owner -> (joint mode, number), a copy of the jogger's
+        self.beaten = clock.now()
+        self.over = False
+
+    def beat(self):
+        self.beaten = clock.now()
+
+    def run(self):
+        while not self.over:
+            clock.sleep(GUARD_S)
+            jogs = list(self.jogs.values())
+            if jogs and clock.now() - self.beaten > STALLED_S:
+                for what in jogs:
+                    try:
+                        self.command.jog(linuxcnc.JOG_STOP, *what)
+                    except linuxcnc.error:
+                        pass     # the controller is gone: so is the motion
+
+
 class Jogger:
     """Jogs of one screen. `app` gives status, command, settings, variables, manual_ok() and mode changes."""
 
     def __init__(self, app):
         self.app = app
-        self.running = {}        # owner -> (joint mode, number) of a continuous jog
+        self.guard = Guard()
+        self.running = self.guard.jogs   # owner -> (joint mode, number) of a continuous jog
 
     # -- what is jogged --------------------------------------------------------------------
 
@@ -89,6 +122,7 @@ class Jogger:
                 return False
             app.command.jog(linuxcnc.JOG_INCREMENT, joint_mode, number, speed, distance)
             return True
+        self.guard.beat()
         self.running[owner] = (joint_mode, number)
         app.command.jog(linuxcnc.JOG_CONTINUOUS, joint_mode, number, speed)
         return True

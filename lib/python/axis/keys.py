@@ -10,6 +10,7 @@ JOG_KEYS = {                               # keysym -> (place in the jog order, 
     "KP_Down": (1, -1), "KP_Up": (1, 1), "KP_2": (1, -1), "KP_8": (1, 1), "KP_Next": (2, -1), "KP_Prior": (2, 1),
     "KP_3": (2, -1), "KP_9": (2, 1),
 }
+CHORD = ("Shift_L", "Shift_R", "Control_L", "Control_R", "Alt_L", "Alt_R", "Meta_L", "Meta_R", "Super_L", "Super_R")
 PLAIN = {                                  # without modifiers: key -> command
     "F2": "onoff_clicked", "F4": "next_tab", "F7": "mist_toggle", "F8": "flood_toggle", "F9": "spindle_forward_toggle",
     "F10": "spindle_backward_toggle", "b": "brake_off", "o": "open_file", "r": "task_run", "t": "task_step", "p": "task_pause",
@@ -30,7 +31,8 @@ class Keys:
 
     def __init__(self, app):
         self.app = app
-        self.held = {}            # keysym -> id of a release that waits for a repeat, or None
+        self.held = {}            # keycode -> id of a release that waits for a repeat, or None. Not the
+                                  # keysym: with another modifier the release has another one than the press.
         root = app.root
         root.bind("<KeyPress>", self.press)
         root.bind("<KeyRelease>", self.release)
@@ -81,16 +83,17 @@ class Keys:
         key = event.keysym
         if self.in_entry(event):
             return self.call("task_stop") if key == "Escape" else None
-        if key in self.held:             # auto-repeat: the waiting release was no release
-            if self.held[key]:
-                self.app.root.after_cancel(self.held[key])
-                self.held[key] = None
+        code = event.keycode
+        if code in self.held:            # auto-repeat: the waiting release was no release
+            if self.held[code]:
+                self.app.root.after_cancel(self.held[code])
+                self.held[code] = None
             return "break"
         if key in JOG_KEYS or key in ("minus", "equal"):
             if event.state & (MODIFIERS & ~1) or (event.state & 1 and key in ("minus", "equal")):
                 return None
-            self.held[key] = None
-            self.jog(key, bool(event.state & 1))
+            self.held[code] = None
+            self.jog(key, code, bool(event.state & 1))
             return "break"
         if event.state & MODIFIERS and key not in ("less", "greater", "I"):
             return None
@@ -98,10 +101,10 @@ class Keys:
             return self.call(PLAIN[key])
         return "break" if self.other(key) else None
 
-    def jog(self, key, fast):
+    def jog(self, key, code, fast):
         app = self.app
         if key in ("minus", "equal"):
-            app.jogger.start(key, app.vars.ja_rbutton.get(), -1 if key == "minus" else 1)
+            app.jogger.start(code, app.vars.ja_rbutton.get(), -1 if key == "minus" else 1)
             return
         place, direction = JOG_KEYS[key]
         selected = app.jog_target(place)
@@ -109,26 +112,28 @@ class Keys:
             return
         if not selected.isdigit() and selected.upper() in app.jog_invert:
             direction = -direction
-        if app.jogger.start(key, selected, direction, fast):
+        if app.jogger.start(code, selected, direction, fast):
             app.activate_ja_widget(selected, True)
 
     def release(self, event):
-        key = event.keysym
-        if key in self.held and self.held[key] is None:
+        code = event.keycode
+        if code in self.held and self.held[code] is None:
             # an auto-repeat sends release and press together: wait for the press
-            self.held[key] = self.app.root.after(1, lambda: self.let_go(key))
+            self.held[code] = self.app.root.after(1, lambda: self.let_go(code))
+        if event.keysym in CHORD:        # FP-061: a jog does not outlive a part of its chord
+            self.app.jogger.stop_all()
 
-    def let_go(self, key):
-        self.held.pop(key, None)
-        self.app.jogger.stop(key)
+    def let_go(self, code):
+        self.held.pop(code, None)
+        self.app.jogger.stop(code)
 
     def focus_out(self, event):
-        if event.widget is self.app.root:
-            for key in list(self.held):
-                if self.held[key]:
-                    self.app.root.after_cancel(self.held[key])
-                self.let_go(key)
-            self.app.jogger.stop_all()
+        """Releases go to another window from now on: nothing may wait for them."""
+        for code in list(self.held):
+            if self.held[code]:
+                self.app.root.after_cancel(self.held[code])
+            self.let_go(code)
+        self.app.jogger.stop_all()
 
     def other(self, key):
         app = self.app

@@ -41,6 +41,12 @@ class Notifications:
             if kind is None or k == kind:
                 self.remove(box)
 
+    def drop(self, unwanted):
+        """Removes messages for whose text unwanted(text) is true."""
+        for _, box in list(self.shown):
+            if unwanted(box.winfo_children()[1].cget("text")):
+                self.remove(box)
+
     def place(self):
         if self.shown:
             self.frame.place(relx=1, rely=1, x=-16, y=-36, anchor="se")

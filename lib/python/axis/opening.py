@@ -66,7 +66,28 @@ class OpeningPart:
         c.program_open(self.shown_file)
         c.wait_complete()
         self.code.load(self.loader.kept_text(self.shown_file))
+        self.read_preview()
+        self.show_title()
+
+    def refresh_preview(self):
+        """The preview alone is read anew; the view stays."""
+        if not self.loaded_file or self.loading or self.state_on_disk() != self.disk_state:
+            return
+        centre, size = list(self.preview.camera.centre), self.preview.camera.size
+        self.command.task_plan_synch()           # writes the parameter file
+        self.command.wait_complete()
+        self.begin_progress()
+        try:
+            self.read_preview(quiet=True)
+        finally:
+            self.end_progress()
+        self.preview.camera.centre, self.preview.camera.size = centre, size
+        self.preview.invalidate()
+
+    def read_preview(self, quiet=False):
+        """Interprets the program for the picture, the limits and the properties. quiet: faults are known already."""
         self.stat.poll()
+        self.stale_since = None
         total = max(1, self.code.total)
         timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
         end = time.monotonic() + (timeout if timeout > 0 else LONGEST_PREVIEW_S)
@@ -78,8 +99,12 @@ class OpeningPart:
                 return True
             return self.cancel_loading
         path = self.loader.preview(self.shown_file, self.stat, bool(self.vars.block_delete.get()), progress)
+        if self.cancel_loading and quiet:
+            return
         boxed = self.loader.too_large(self.shown_file)
         self.preview.set_program(path, boxed)
+        if quiet:
+            return
         if boxed:
             self.notifications.add("info", self.translate("The file is larger than GRAPHICAL_MAX_FILE_SIZE: only its bounds are drawn"))
         elif path.thinned > 1:
@@ -92,7 +117,6 @@ class OpeningPart:
             dialogs.ask(self.root, self.translate("G-Code error in %s") % os.path.basename(self.shown_file),
                         self.translate("Near line %d of %s:\n%s") % (line, self.shown_file, path.error), "error", 0,
                         self.translate("OK"), extra=fault["report"] if fault else None)
-        self.show_title()
 
     def state_on_disk(self):
         """What tells a change of the opened file, or None when it is gone."""
@@ -234,6 +258,7 @@ class OpeningPart:
             return                   # task told the reason
         answer = dialogs.ask(self.root, _("Run from line %d") % s.restore_line, _("Before the program goes on at line %d, this is done:") % s.restore_line,
                              "warning", 2, _("Restore and run"), _("Run without"), _("Cancel"), extra=s.restore_text, escape=2)
+        self.notifications.drop(lambda text: s.restore_text[:60] in text)       # the dialog told it
         restored = s.restore_line
         s.poll()
         if s.task_state != linuxcnc.STATE_ON or self.running():

@@ -68,7 +68,7 @@ class WindowPart(LooksPart):
         for name, function in {"jog_slider": lambda x: self.slider("jog", x), "ajog_slider": lambda x: self.slider("ajog", x),
                                "maxvel_slider": lambda x: self.slider("maxvel", x), "raised_manual": self.tab_raised,
                                "raised_mdi": self.tab_raised, "increment_chosen": self.increment_chosen,
-                               "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
+                               "can_undo": lambda: int(self.undo_lines is not None), "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
                                "large_touch_targets": lambda: self.set_touch(self.vars.large_touch_targets.get()),
                                "interface_scale": lambda: self.set_scale(self.vars.interface_scale.get())}.items():
             tcl.createcommand(f"::axis::{name}", self.guarded(function))
@@ -162,7 +162,7 @@ class WindowPart(LooksPart):
         v.metric.set(int(s.metric))
         v.coord_type.set(int(s.relative))
         v.display_type.set(int(s.commanded))
-        v.touch_off_system.set("P1")
+        v.touch_off_system.set("P0")          # the active one, until another is chosen
         v.has_editor.set(int(s.find("DISPLAY", "EDITOR") is not None))
         v.max_queued_mdi_commands.set(int(s.real(("TASK", "MDI_QUEUED_COMMANDS"), default=10)))
         v.max_speed.set(s.max_linear)

@@ -32,7 +32,7 @@ class Operator:
         end = clock.now() + seconds
         while clock.now() < end:
             self.app.tick()
-            self.app.show_errors()
+            self.app.look_around()
             self.root.update()
             clock.sleep(CYCLE_S)
 

@@ -1,0 +1,219 @@
+#!/usr/bin/python3
+import os
+import sys
+
+import linuxcnc
+import operator_lib as lib
+from axis import dialogs
+from axis.program import properties
+from kerf import clock
+
+
+def script(op):
+    sys.stdout = open("transcript", "w", buffering=1)
+    app, here = op.app, os.path.dirname(sys.argv[-1])
+    op.power_on()
+    op.home()
+    jogging(op)
+    programs(op, here)
+    loading(op, here)
+    touching_off(op)
+    reports(op)
+
+
+def at_rest(op):
+    """True when no joint moves a second later."""
+    op.wait(1.0)
+    before = op.stat.actual_position
+    op.wait(0.3)
+    return before == op.stat.actual_position
+
+
+def jogging(op):
+    app, root = op.app, op.root
+
+    def jog(key="Left", state=0):
+        op.hold(key, state=state)
+        op.wait(0.2)
+        return abs(op.stat.joint[0]["velocity"]) > 0
+    print("FP-060: moves", jog(), end=" ")
+    app.vars.jogincrement.set("1mm")
+    app.increment_chosen()
+    op.let_go("Left")
+    print("increment chosen meanwhile, let go: rests", at_rest(op))
+    app.continuous()
+    print("FP-061: moves", jog(state=1), end=" ")
+    root.event_generate("<KeyRelease-Shift_L>", state=1)
+    print("modifier let go first: rests", at_rest(op), end=" ")
+    op.let_go("Left")
+    print("moves", jog("KP_Left"), end=" ")
+    op.let_go("KP_4")            # the same key has another name with another modifier
+    print("release of another name: rests", at_rest(op))
+    print("FP-061: moves", jog(), end=" ")
+    op.key("F5")
+    print("other tab: rests", at_rest(op), end=" ")
+    op.let_go("Left")
+    op.key("F3")
+    print("moves", jog(), end=" ")
+    app.command.mode(linuxcnc.MODE_MDI)          # another client
+    op.wait(0.3)
+    print("other mode while a key is held: refused", op.stat.task_mode == linuxcnc.MODE_MANUAL, end=" ")
+    op.let_go("Left")
+    print("let go: rests", at_rest(op))
+    op.key("F3")
+    print("FP-061: moves", jog(), end=" ")
+    clock.sleep(1.5)             # the screen does not get on
+    before = op.stat.actual_position
+    clock.sleep(0.3)
+    print("stalled screen: rests", before == op.stat.actual_position)
+    op.wait(0.1)
+    op.let_go("Left")
+
+
+def programs(op, here):
+    app = op.app
+    path = os.path.join(here, "part.ngc")
+    with open(path) as f:
+        text = f.read()
+    print("FP-138: run time with dwell:", [value for name, value in properties(app.shown_file, None, app.preview.program, app.settings, True) if name == "Run time"])
+    with open(path, "w") as f:
+        f.write(text.replace("G1 Y20", "G1 Y-80"))
+    op.wait(0.5)
+    print("FP-130:", [m.split(" ")[1:5] for m in op.messages() if "on disk" in m], end=" ")
+    op.key("r")
+    op.wait(0.3)
+    print("not run:", op.stat.interp_state == linuxcnc.INTERP_IDLE, "told:", any("open it again" in m for m in op.messages()), "text shown:", app.line_text(5))
+    op.key("r", state=4)         # Control-R: reload, a copy that later edits do not touch
+    op.wait(0.3)
+    with open(path, "w") as f:
+        f.write(text.replace("G1 Y20", "G1 Y-90"))
+    op.key("r")
+    lowest, lines, places = 0.0, set(), set()
+    while op.stat.interp_state != linuxcnc.INTERP_IDLE or not lines:
+        op.wait(0.1)
+        lowest = min(lowest, op.stat.actual_position[1])
+        lines.add(app.vars.running_line.get())
+        if app.place:
+            places.add(app.place)
+    print("FP-130: edited after a reload: ran as it was shown:", round(lowest) == -80, "text shown:", app.line_text(5))
+    print("FP-139: lines marked within the program:", max(lines) <= 9, "places in the subroutine:", sorted(places))
+    with open(path, "w") as f:
+        f.write(text)
+    op.wait(0.5)
+    op.key("r", state=4)         # Control-R: reload
+    op.wait(0.3)
+    print("FP-139: opened again:", app.loaded_file == path, app.preview.program.error or "no error")
+    op.answer(2)
+    app.set_highlight_line(5)
+    op.key("F3")
+    op.root.tk.call("task_run_line")
+    op.wait(0.5)
+    print("FP-131: cancelled: idle", op.stat.interp_state == linuxcnc.INTERP_IDLE, "nothing pending", op.stat.restore_line == 0)
+    op.answer(0)
+    op.root.tk.call("task_run_line")
+    op.until(lambda: op.stat.interp_state != linuxcnc.INTERP_IDLE, "the restored start")
+    op.idle()
+    print("FP-131: restored and run to the end:", [op.position(i) for i in (0, 1)])
+    op.key("F5")
+    before = tuple(app.preview.drawings[0].extents[0])
+    op.type("G10 L2 P1 X10 Y0 Z0 R90")
+    op.idle()
+    op.wait(0.2)
+    clock_wait(op)
+    after = tuple(app.preview.drawings[0].extents[0])
+    print("FP-134: rotated by hand: preview follows", [round(25.4 * (b - a), 3) for a, b in zip(before, after)][:2])
+    op.type("G92 Y1")
+    op.idle()
+    clock_wait(op)
+    third = tuple(app.preview.drawings[0].extents[0])
+    print("FP-134: G92: preview follows", third != after)
+    op.type("G92.1")
+    op.idle()
+    op.type("G10 L2 P1 X0 Y0 Z0 R0")
+    op.idle()
+    clock_wait(op)
+    print("FP-134: back:", tuple(app.preview.drawings[0].extents[0]) == before)
+
+
+def clock_wait(op):
+    """The offsets have rested long enough for the preview (real time: what a person waits)."""
+    op.app.stale_since = op.app.stale_since and op.app.stale_since - 10
+    op.app.follow_offsets()
+    op.wait(0.1)
+
+
+def loading(op, here):
+    app = op.app
+    op.key("F3")
+    op.root.after(150, lambda: op.root.event_generate("<KeyPress-Escape>"))
+    app.open_file_guts(os.path.join(here, "endless.ngc"))
+    print("FP-136: endless program: Escape ends the reading:", app.preview.program.aborted, "shown:", app.preview.program.n_moves > 0,
+          "limits not fully checked:", any("truncated" in w for w in app.limit_warnings()))
+    op.root.after(150, lambda: op.root.event_generate("<KeyPress-F1>"))
+    op.root.after(400, lambda: op.root.event_generate("<KeyPress-Escape>"))
+    app.open_file_guts(os.path.join(here, "endless.ngc"))
+    print("FP-187: emergency stop while loading:", op.stat.task_state == linuxcnc.STATE_ESTOP, end=" ")
+    op.wait(0.3)
+    op.power_on()
+    print("usable after it:", app.vars.task_state_string.get(), "loading over:", not app.loading)
+    op.answer(0)
+    app.open_file_guts(os.path.join(here, "broken.ngc"))
+    op.wait(0.2)
+    app.open_file_guts(os.path.join(here, "part.ngc"))
+    app.open_file_guts(os.path.join(here, "part.ngc"))
+    print("FP-139: opened twice:", op.messages()[-1:] if any("open" in m for m in op.messages()[-1:]) else "no complaint")
+
+
+def touching_off(op):
+    app = op.app
+    op.key("F5")
+    op.type("G55")
+    op.idle()
+    op.key("F3")
+    asked = []
+
+    def wait(dialog, focus=None):
+        asked.append((dialog.system.get() if dialog.system else None, [w.cget("text") for w in dialog.window.winfo_children() if w.winfo_class() == "Label"]))
+        dialog.value.set("5")
+        dialog.accept()
+        dialog.window.destroy()
+        return dialog.result
+    dialogs.Touchoff.wait = wait
+    app.vars.touch_off_system.set("P0")
+    app.notifications.clear()
+    app.activate_ja_widget("x")
+    op.hold("Up")
+    op.wait(0.3)
+    op.let_go("Up")
+    op.wait(0.5)
+    print("FP-183: the axis that moved is chosen:", app.vars.ja_rbutton.get())
+    before = app.stat.g5x_offset
+    op.key("End")
+    op.wait(0.3)
+    s = op.stat
+    print("FP-185:", asked[0][0], "|", asked[0][1][1], "| changed:", s.g5x_index, [i for i in range(9) if abs(before[i] - s.g5x_offset[i]) > 1e-9])
+    print("FP-183:", op.messages()[-1].split(":")[0:2], "shown value", [x for x in app.preview.readout_lines if x.strip().startswith("Y:")][0].split()[1])
+    op.root.tk.call("undo_touch_off")
+    op.wait(0.3)
+    print("FP-183: taken back:", all(abs(a - b) < 1e-6 for a, b in zip(before, op.stat.g5x_offset)), "only once:", app.undo_lines)
+    shown = {w.split(":")[0].strip(): float(w.split(":")[1].split()[0]) for w in app.preview.readout_lines if w.count(":") and w.strip()[:2] in ("X:", "Y:", "Z:")}
+    s = op.stat
+    agrees = all(abs(shown[c] - (s.actual_position[i] - s.tool_offset[i] - s.g5x_offset[i] - s.g92_offset[i])) < 2e-3 for i, c in enumerate("XYZ"))
+    print("FP-184: display is machine less offsets:", agrees, "system shown:", {x.split()[0] for x in app.preview.readout_lines if x.strip().startswith("G5")})
+
+
+def reports(op):
+    app = op.app
+    app.TclCommands.fails = staticmethod(fails)
+    app.TclCommands(op.root)
+    sys.stderr = open(os.devnull, "w")
+    op.root.tk.call("fails")
+    op.wait(0.2)
+    print("FP-188: told:", "on purpose" in op.messages()[-1], "report named:", "report-" in op.messages()[-1], "the screen goes on:", op.stat.task_state == linuxcnc.STATE_ON)
+
+
+def fails(*args):
+    raise RuntimeError("on purpose")
+
+
+lib.run(script)
