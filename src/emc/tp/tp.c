@@ -21,8 +21,13 @@
 #define NUM_OUT 64        /* synchronised outputs of a kind */
 #define OUTPUT_LAG 2      /* cycles from the planner to a joint's command: motmod's interpolator */
 #define SYNC_EXCESS 1.02   /* a spindle that asks for so much more than the limit is refused */
+#define EXCESS_TIME 0.05   /* s of it while a thread is cut end the thread */
 #define TAP_OVERRUN 10    /* revolutions that a tap may run on after the spindle was reversed */
+#define TAP_STILL 1e-3     /* of one cycle's change of speed: what an aborted tap follows no more */
 #define STAND_TIME 2.0     /* s without motion and without a reason that motmod shows: reported */
+#define WAIT_TIME 1.0      /* s that a move waits for a spindle before the log says for what */
+#define INDEX_REVS 1.0     /* revolutions that an encoder may show right after its index, */
+#define INDEX_CYCLES 10    /* and what it turns in so many cycles more */
 #define ABORT_FOLLOW 0.1  /* s that an aborted tap goes on following while the spindle is not stopped */
 
 /* Outputs that a move switches when it starts. */
@@ -85,10 +90,14 @@ struct planner {
     double tolerance;
     double vmax, ini_maxvel, vlimit, amax;
     int pausing, aborting;
+    double excess;          /* s of a spindle too fast to follow */
+    double waited;          /* s of waiting for a spindle */
     double standing;        /* s without motion though nothing holds it */
     int done;
     int64_t entered;        /* last move whose start was reported, -1 none */
     int unlocked_joint;     /* rotary joint that was unlocked for the executing move, -1 none */
+    int resting;            /* cycles since motion came to rest */
+    uint32_t unlocked_for;  /* the move it was unlocked for */
     struct sync sync;       /* of moves to come */
     int index_requested;    /* the start of a synchronised move waits for the spindle's index */
     int followed;           /* spindle of `follow`, -1 none */
@@ -633,6 +642,7 @@ static int spindles_at_speed(void)
 static int rotary_locked(struct planner *pl)
 {
     if (pl->unlocked_joint < 0) return 1;
+    if (pl->resting <= OUTPUT_LAG + 1) return 0; /* the joint itself still moves */
     set_rotary_unlock(pl->unlocked_joint, 0);
     if (get_rotary_is_unlocked(pl->unlocked_joint)) return 0;
     pl->unlocked_joint = -1;
@@ -654,6 +664,23 @@ static double follow_lead(const struct planner *pl, const struct move_info *info
     return (OUTPUT_LAG - 1) * pl->cycle + lag;
 }
 
+/* A spindle that turns too fast for the machine to follow ends the path: the pitch would be wrong. */
+static void refuse_speed(struct planner *pl, const struct move_info *info, double vmax)
+{
+    rtapi_print_msg(RTAPI_MSG_ERR, "line %d: following spindle %d needs %g units/s, the machine's limit is %g\n", info->id,
+                    info->sync.spindle, info->sync.upr * fabs(pl->follow.speed), vmax);
+    status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
+    pl->pausing = pl->aborting = 1;
+}
+
+/* The same while a thread is cut. */
+static void watch_excess(struct planner *pl, const struct move_info *info, double vmax)
+{
+    double before = pl->excess;
+    pl->excess = info->sync.upr * fabs(pl->follow.speed) > vmax * SYNC_EXCESS ? before + pl->cycle : 0;
+    if (before < EXCESS_TIME && pl->excess >= EXCESS_TIME) refuse_speed(pl, info, vmax);
+}
+
 /* Goes on with the start of a move that follows a spindle's position: index, then phase. 1: may start. */
 static int sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *info, double acc, double vmax)
 {
@@ -672,12 +699,16 @@ static int sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info 
     if (sp->spindle_index_enable) return 0;
     pl->index_requested = 0;
     tp->spindle.waiting_for_index = -1;
-    follow_index(&pl->follow, spindle_revs(n));
-    if (info->sync.upr * fabs(pl->follow.speed) > vmax * SYNC_EXCESS) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: following spindle %d needs %g units/s, the machine's limit is %g\n",
-                        info->id, n, info->sync.upr * fabs(pl->follow.speed), vmax);
+    if (fabs(sp->spindleRevs) > INDEX_REVS + INDEX_CYCLES * pl->cycle * fabs(pl->follow.speed)) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: spindle %d counts %g revolutions right after its index: spindle.%d.index-enable was "
+                        "cleared without one\n", info->id, n, sp->spindleRevs, n);
         status->motionFlag |= EMCMOT_MOTION_ERROR_BIT;
         pl->pausing = pl->aborting = 1;
+        return 0;
+    }
+    follow_index(&pl->follow, spindle_revs(n));
+    if (info->sync.upr * fabs(pl->follow.speed) > vmax * SYNC_EXCESS) {
+        refuse_speed(pl, info, vmax);
         return 0;
     }
     follow_start(&pl->follow, info->sync.upr, acc, follow_lead(pl, info), pl->cycle);
@@ -692,7 +723,8 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
     const struct traj_seg *g = traj_seg(&pl->tj, index);
     int goes_on = status->spindleSync && !info->tap; /* rest within a synchronised run */
 
-    if (pl->pausing || !rotary_locked(pl)) return 0;
+    if (pl->pausing) return 0;
+    if ((pl->unlocked_joint < 0 || pl->unlocked_for != index) && !rotary_locked(pl)) return 0;
     if ((info->atspeed || (info->sync.mode == SYNC_POSITION && !goes_on) || info->tap) && !pl->index_requested &&
         !spindles_at_speed()) {
         tp->spindle.waiting_for_atspeed = info->id;
@@ -702,6 +734,7 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
     if (info->indexer >= 0) {
         set_rotary_unlock(info->indexer, 1);
         pl->unlocked_joint = info->indexer;
+        pl->unlocked_for = index;
         if (!get_rotary_is_unlocked(info->indexer)) return 0;
     }
     if (info->tap) return sync_start(tp, pl, info, info->tap_acc, info->tap_vmax);
@@ -719,6 +752,7 @@ static double sync_speed(struct planner *pl)
     if (info->sync.mode == SYNC_SPEED)
         return fabs(status->spindle_status[info->sync.spindle].spindleSpeedIn) * info->sync.upr;
     if (info->sync.mode != SYNC_POSITION || pl->followed < 0) return 0;
+    watch_excess(pl, info, g->vmax);
     double reference = follow_reference(&pl->follow, info->sync.upr, follow_lead(pl, info));
     double error = reference - (tj->s - g->s0) / g->stretch;
     double v = follow_speed(error, info->sync.upr * pl->follow.speed, traj_acc(tj, tj->cur), pl->cycle);
@@ -773,7 +807,7 @@ static void run_tap(struct planner *pl, const struct move_info *info)
         /* Tool and thread stay together while the spindle runs down. */
         tap->abort_time += T;
         int stopping = sp->speed == 0 || tap->abort_time < ABORT_FOLLOW;
-        if (tap->state == TAP_PLACE || !stopping) want = 0;
+        if (tap->state == TAP_PLACE || !stopping || fabs(want) < TAP_STILL * dv) want = 0;
     }
     if (fabs(want) > info->tap_vmax) want = want < 0 ? -info->tap_vmax : info->tap_vmax;
     tap->v += fmax(-dv, fmin(dv, want - tap->v));
@@ -883,6 +917,26 @@ static double stop_place(struct planner *pl)
     return status->stepping ? traj_seg(tj, tj->cur)->s1 : NAN;
 }
 
+/* A wait for a spindle that takes long is named in the log, once. */
+static void watch_waiting(const TP_STRUCT *tp, struct planner *pl)
+{
+    double before = pl->waited;
+
+    if (tp->spindle.waiting_for_atspeed < 0 && tp->spindle.waiting_for_index < 0) {
+        pl->waited = 0;
+        return;
+    }
+    pl->waited += pl->cycle;
+    if (before >= WAIT_TIME || pl->waited < WAIT_TIME) return;
+    if (tp->spindle.waiting_for_index >= 0) {
+        rtapi_print("motion: line %d waits for an index: spindle.%d.index-enable\n", tp->spindle.waiting_for_index, pl->followed);
+        return;
+    }
+    for (int i = 0; i < config->numSpindles; i++)
+        if (!status->spindle_status[i].at_speed)
+            rtapi_print("motion: line %d waits for spindle.%d.at-speed\n", tp->spindle.waiting_for_atspeed, i);
+}
+
 /* Motion that stands though moves are queued and nothing that motmod shows holds it: says why. */
 static void watch_standing(struct planner *pl, double place)
 {
@@ -920,7 +974,7 @@ int tpRunCycle(TP_STRUCT *tp, long period)
     struct traj *tj = &pl->tj;
     if (tj->end == tj->first) {
         if (pl->aborting) forget_moves(tp, pl, 1);
-        pl->pausing = 0;
+        pl->pausing = 0; /* a pause holds the moves there are: MDI moves go on under it */
         idle_status(pl);
         return TP_ERR_WAITING;
     }
@@ -948,7 +1002,9 @@ int tpRunCycle(TP_STRUCT *tp, long period)
     uint32_t from = tj->cur;
     double place = tj->place;
     traj_cycle(tj);
+    pl->resting = tj->place != place ? 0 : pl->resting < 1000 ? pl->resting + 1 : pl->resting;
     watch_standing(pl, place);
+    watch_waiting(tp, pl);
     memcpy(pl->pos, tj->pos, sizeof pl->pos);
     follow_moves(pl, from);
     enter_moves(pl);

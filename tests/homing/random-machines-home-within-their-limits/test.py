@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Property test: machines with random homing settings, places, switches that bounce and read wrongly,
+"""Property test (FP-036 with a jerk limit): machines with random homing settings, places, switches that bounce and read wrongly,
 with and without a jerk limit. No slide goes beyond its limits of speed, acceleration and jerk; homing
 ends; it ends homed with the right zero when the hardware is good, else homed or with a message; an
 abort at a random time stops everything."""

@@ -108,6 +108,15 @@ int send(int code, const py::kwargs &fields)
             command.tag.fields_float[GM_FIELD_FLOAT_FEED] = py::cast<float>(field.second);
             continue;
         }
+        if (name == "tag_field" || name == "tag_float") { /* {index: value} */
+            for (auto item : py::cast<py::dict>(field.second)) {
+                auto n = py::cast<unsigned>(item.first);
+                if (n >= static_cast<unsigned>(name == "tag_field" ? +GM_FIELD_MAX_FIELDS : +GM_FIELD_FLOAT_MAX_FIELDS)) throw std::invalid_argument("no such field of a tag");
+                if (name == "tag_field") command.tag.fields[n] = py::cast<int>(item.second);
+                else command.tag.fields_float[n] = py::cast<float>(item.second);
+            }
+            continue;
+        }
         auto setter = setters().find(name);
         if (setter == setters().end()) throw std::invalid_argument("no field " + name + " in a motion command");
         setter->second(command, field.second);
@@ -198,6 +207,9 @@ py::dict status()
     d["motionType"] = s.motionType;
     d["distance_to_go"] = s.distance_to_go;
     d["current_vel"] = s.current_vel;
+    d["vel"] = s.vel;
+    d["acc"] = s.acc;
+    d["jerk"] = s.jerk;
     d["requested_vel"] = s.requested_vel;
     d["planner_type"] = s.planner_type;
     d["scurve_peak_scale"] = s.scurve_peak_scale;

@@ -355,6 +355,7 @@ static void threads_have_the_same_phase_at_every_speed(void)
     }
 }
 
+/* FP-031, beside the acceleration with an ideal encoder above */
 static void a_coarse_encoder_gives_bounded_ripple(void)
 {
     double e, a;

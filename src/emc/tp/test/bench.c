@@ -27,6 +27,14 @@ void rtapi_print_msg(msg_level_t level, const char *fmt, ...)
     if (bench_verbose) fputs(bench_message, stderr);
 }
 
+void rtapi_print(const char *fmt, ...)
+{
+    va_list ap;
+    va_start(ap, fmt);
+    if (bench_verbose) vfprintf(stderr, fmt, ap);
+    va_end(ap);
+}
+
 uint64_t rnd(uint64_t *state)
 {
     uint64_t z = (*state += 0x9e3779b97f4a7c15ull);
