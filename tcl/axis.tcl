@@ -460,7 +460,7 @@ proc ::axis::build_pane {} {
 
 proc ::axis::build_status {} {
     frame .info
-    label .info.task_state -textvariable task_state_string -width 12 -anchor w -relief flat
+    label .info.task_state -textvariable task_state_string -width 16 -anchor w -relief flat
     label .info.tool -textvariable tool -anchor w -width 44
     label .info.position -textvariable position -anchor w -width 30
     canvas .info.progress -width 1 -height 1 -highlightthickness 0

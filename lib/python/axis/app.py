@@ -51,7 +51,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.wait_for_status()
         self.prefs = Preferences()
         self.vars = Variables(root)
-        self.translate = gettext.translation("linuxcnc", Tree.find().share / "locale", fallback=True).gettext
+        self.translate = gettext.translation("linuxcnc", Tree.find().locale, fallback=True).gettext
         self.jog_invert = self.settings.jog_invert()
         self.loaded_file = self.shown_file = None
         self.is_filtered = self.loading = self.cancel_loading = False

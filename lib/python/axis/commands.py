@@ -73,7 +73,7 @@ def make(app):
         def open_file(*event):
             if app.running():
                 return
-            types = [(name, patterns) for name, patterns in app.loader.file_types()]
+            types = [(name, patterns) for name, patterns in app.loader.file_types(_)]
             chosen = filedialog.askopenfilename(parent=root, filetypes=types, initialdir=app.open_directory, title=_("Open..."))
             if chosen:
                 app.open_directory = os.path.dirname(chosen)
@@ -142,7 +142,7 @@ def make(app):
 
         def gcode_properties(*event):
             rows = program.properties(app.shown_file, app.loaded_file if app.is_filtered else None, app.preview.program,
-                                      app.settings, bool(v.metric.get()))
+                                      app.settings, bool(v.metric.get()), _)
             text = "\n".join(f"{name + ':':<18} {value}" for name, value in rows)
             dialogs.ask(root, _("G-Code Properties"), text, "info", 0, _("OK"), escape=0)
 

@@ -11,8 +11,11 @@ import linuxcnc
 
 from .dro import active_codes, tool_text
 from .jog import position
-from .settings import LETTERS
+from .settings import LETTERS, N_
 
+POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("Position: Machine Commanded"),
+             (True, False): N_("Position: Relative Actual"), (True, True): N_("Position: Relative Commanded")}     # relative, commanded
+STATES = {linuxcnc.STATE_ESTOP: N_("ESTOP"), linuxcnc.STATE_ON: N_("ON"), linuxcnc.STATE_OFF: N_("OFF")}
 ERROR_POLL_MS = 200
 STALE_S = 0.3            # offsets must rest so long before the preview is read anew
 
@@ -69,8 +72,7 @@ class FollowPart:
         put("override_limits", int(s.joint[0]["override_limits"]))
         put("on_any_limit", int(any(s.limit[:self.settings.joints])))
         put("tool", tool_text(s, self.settings.lathe, self.translate))
-        names = {linuxcnc.STATE_ESTOP: "ESTOP", linuxcnc.STATE_ON: "ON"}
-        put("task_state_string", self.translate(names.get(s.task_state, "OFF")))
+        put("task_state_string", self.translate(STATES.get(s.task_state, STATES[linuxcnc.STATE_OFF])))
         self.follow_overrides()
         self.follow_modes()
         self.follow_moved_axis()
@@ -160,7 +162,7 @@ class FollowPart:
                                joints=bool(self.joints_shown), offsets=bool(v.show_offsets.get()), speed=bool(v.show_machine_speed.get()),
                                distance_to_go=bool(v.show_distance_to_go.get()), extra_joints=s.num_extrajoints)
         text = self.translate("Position: Joint") if view.joints else \
-            self.translate(f"Position: {'Relative' if view.relative else 'Machine'} {'Commanded' if view.commanded else 'Actual'}")
+            self.translate(POSITIONS[view.relative, view.commanded])
         self.vars.put("position", f"{text}    {self.place}" if self.place else text)
         long_lines = self.readout.lines(s, view)
         view.offsets = False

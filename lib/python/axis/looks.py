@@ -11,7 +11,7 @@ from .icons import Icons
 # What AXIS has beside the colours of all Tk programs.
 LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#70767f", "chosen": "#b9d3ee", "trough": "#c9c5bd", "mark": "#fffffe"}
 DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#3f5f86", "trough": "#44474c", "mark": "#c4c9d0"}
-TOUCH = 1.45             # buttons and sliders for gloves
+TOUCH, TOUCH_LOW = 1.45, 1.2     # buttons and sliders for gloves; on a low screen
 SCALES = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0)      # 0: from the screen
 LEAST_WINDOW = (760, 520)
 
@@ -29,19 +29,30 @@ class LooksPart:
         width, height = root.winfo_screenwidth(), root.winfo_screenheight()
         px = self.style.px
         root.geometry(f"{min(px(1280), width)}x{min(px(860), height - 40)}")
-        low = height < tkstyle.SMALL_SCREEN * (TOUCH if self.touch() else 1.0) * self.style.scale
-        for name, value in (("code_lines", 4 if low else 9), ("gap", 2 if low else px(8)), ("spindle_side", "left" if low else "top")):
+        low = self.low() or (self.touch() and height < 800)
+        for name, value in (("code_lines", 3 if self.low() else 4 if low else 9), ("gap", 2 if low else px(8)), ("spindle_side", "left" if low else "top")):
             root.tk.setvar(f"::axis::{name}", value)
         root.minsize(min(LEAST_WINDOW[0], width), min(LEAST_WINDOW[1], height - 40))
 
     def touch(self):
         return self.prefs.getpref("large_touch_targets", False)
 
+    def low(self):
+        """True for a screen that is low for what it has to show."""
+        return self.root.winfo_screenheight() < tkstyle.SMALL_SCREEN * self.style.scale
+
+    def roominess(self):
+        """How much larger than usual buttons and sliders are."""
+        return 1.0 if not self.touch() else TOUCH_LOW if self.low() else TOUCH
+
+    def padding(self):
+        return self.style.px(9 if self.roominess() > TOUCH_LOW else 5 if self.roominess() > 1 else 2)
+
     def letters_px(self):
         return -int(self.root.tk.call("font", "configure", "TkDefaultFont", "-size"))     # tkstyle gives pixels
 
     def icon_px(self):
-        return self.style.px(24 * (TOUCH if self.touch() else 1.0))
+        return self.style.px(24 * self.roominess())
 
     def apply_style(self):
         """Fonts, option database, colours of the Tcl side."""
@@ -52,8 +63,7 @@ class LooksPart:
             root.tk.setvar(f"::axis::colour({name})", value)
         self.colours = colours
         root.tk.call("font", "configure", "AxisBold", "-size", -self.letters_px())
-        touch = TOUCH if self.touch() else 1.0
-        pad = style.px(9) if touch > 1 else style.px(2)
+        touch, pad = self.roominess(), self.padding()
         for pattern, value in (("*Listbox.Font", "TkFixedFont"), ("*troughColor", colours["trough"]), ("*Button.borderWidth", 1),
                                ("*Entry.highlightThickness", 1), ("*Scrollbar.borderWidth", 1), ("*Scrollbar.width", style.px(15 * touch)),
                                ("*Scale.borderWidth", 1), ("*Scale.width", style.px(15 * touch * touch)),
@@ -103,8 +113,7 @@ class LooksPart:
     def resize_widgets(self):
         """Room in buttons and sliders."""
         tcl, style = self.root.tk, self.style
-        touch = TOUCH if self.touch() else 1.0
-        pad = style.px(9) if touch > 1 else style.px(2)
+        touch, pad = self.roominess(), self.padding()
         sizes = {"Button": (("-pady", pad),), "Checkbutton": (("-pady", pad // 2),), "Radiobutton": (("-pady", pad // 2),),
                  "Scale": (("-width", style.px(15 * touch * touch)), ("-sliderlength", style.px(28 * touch))),
                  "Scrollbar": (("-width", style.px(15 * touch)),)}

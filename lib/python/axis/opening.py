@@ -45,7 +45,8 @@ class OpeningPart:
                 try:
                     shown = self.loader.filtered(path, lambda percent: self.progress(percent / 2))
                 except program.FilterFailed as e:
-                    dialogs.ask(self.root, self.translate("Filter failed"), str(e), "error", 0, self.translate("OK"), extra=e.text)
+                    text = self.translate("The program '%s' exited with code %d.  Any error messages it produced are shown below:") % (e.program, e.status)
+                    dialogs.ask(self.root, self.translate("Filter failed"), text, "error", 0, self.translate("OK"), extra=e.text)
                     return
             elif self.is_filtered:
                 shown = os.path.join(self.loader.folder, "filtered-" + os.path.basename(path))
@@ -206,7 +207,7 @@ class OpeningPart:
 
     def limit_warnings(self):
         self.stat.poll()
-        return program.limit_warnings(self.preview.program, self.settings, self.stat)
+        return program.limit_warnings(self.preview.program, self.settings, self.stat, self.translate)
 
     def accept_limits(self):
         """True when the program may run: within the limits, or the operator says so."""
@@ -215,7 +216,7 @@ class OpeningPart:
             warnings = self.limit_warnings()
             if not warnings:
                 return True
-            answer = dialogs.ask(self.root, _("Program exceeds machine limits"), "\n".join(_(w) for w in warnings), "warning", 1,
+            answer = dialogs.ask(self.root, _("Program exceeds machine limits"), "\n".join(warnings), "warning", 1,
                                  _("Re-Check"), _("Run Anyway"), _("Cancel"), escape=2)
             if answer == 1:
                 return True

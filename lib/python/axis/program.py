@@ -38,7 +38,7 @@ class Loader:
         extension = os.path.splitext(path)[1][1:]
         return self.s.find("FILTER", extension) if extension else None
 
-    def file_types(self):
+    def file_types(self, translate=str):
         """(description, patterns) for the open dialog."""
         types, every = [], [".ngc"]
         for line in self.s.ini.findall("FILTER", "PROGRAM_EXTENSION") or []:
@@ -46,7 +46,7 @@ class Loader:
             names = extensions.split(",")
             types.append((description.strip() or extensions, names))
             every += names
-        return [("All machinable files", every), ("rs274ngc files", [".ngc"]), *types, ("All files", "*")]
+        return [(translate("All machinable files"), every), (translate("rs274ngc files"), [".ngc"]), *types, (translate("All files"), "*")]
 
     def filtered(self, path, progress=lambda percent: None):
         """Path of the G-code that a filter makes of a file. Raises FilterFailed."""
@@ -126,7 +126,7 @@ class Loader:
         return most > 0 and os.path.getsize(path) > most * 1e6
 
 
-def limit_warnings(program, settings, stat):
+def limit_warnings(program, settings, stat, translate=str):
     """Warnings where the program leaves the soft limits of X, Y or Z."""
     if program is None or program.n_moves == 0:
         return []
@@ -138,22 +138,22 @@ def limit_warnings(program, settings, stat):
             continue
         axis = stat.axis[i]
         if low[i] * scale < axis["min_position_limit"] - 1e-6:
-            warnings.append(f"Program exceeds machine minimum on axis {letter}")
+            warnings.append(translate("Program exceeds machine minimum on axis %s") % letter)
         if high[i] * scale > axis["max_position_limit"] + 1e-6:
-            warnings.append(f"Program exceeds machine maximum on axis {letter}")
+            warnings.append(translate("Program exceeds machine maximum on axis %s") % letter)
     if program.aborted:
-        warnings.append("G-code preview was truncated before completion; machine limits could not be fully checked.")
+        warnings.append(translate("G-code preview was truncated before completion; machine limits could not be fully checked."))
     return warnings
 
 
-def properties(path, source, program, settings, metric):
+def properties(path, source, program, settings, metric, translate=str):
     """(name, value) lines of the properties dialog."""
     if path is None:
-        return [("Name", "No file loaded")]
+        return [(translate("Name"), translate("No file loaded"))]
     with open(path, errors="replace") as f:
         lines = sum(1 for _ in f)
-    rows = [("Name", path if source is None else f"generated from {source}"),
-            ("Size", f"{os.path.getsize(path)} bytes\n{lines} G-code lines")]
+    rows = [(translate("Name"), path if source is None else translate("generated from %s") % source),
+            (translate("Size"), translate("%d bytes\n%d G-code lines") % (os.path.getsize(path), lines))]
     if program is None:
         return rows
     scale, fmt, unit = (MM_PER_INCH, "%.3f", "mm") if metric else (1.0, "%.4f", "in")
@@ -162,11 +162,11 @@ def properties(path, source, program, settings, metric):
         return f"{fmt % (inches * scale)} {unit}"
     max_feed = settings.max_linear / (settings.units_per_mm * MM_PER_INCH) * 60
     seconds = program.run_time(max_feed, max_feed)
-    rows += [("Rapid distance", length(program.rapid_length)), ("Feed distance", length(program.cutting_length)),
-             ("Run time", "%.1f minutes" % (seconds / 60) if seconds > 120 else "%d seconds" % seconds),
-             ("Tool Change List", " ".join(str(tool) for _, tool in program.tools))]
+    rows += [(translate("Rapid distance"), length(program.rapid_length)), (translate("Feed distance"), length(program.cutting_length)),
+             (translate("Run time"), translate("%.1f minutes") % (seconds / 60) if seconds > 120 else translate("%d seconds") % seconds),
+             (translate("Tool Change List"), " ".join(str(tool) for _, tool in program.tools))]
     if program.n_moves:
         low, high = program.extents
-        rows += [(f"{c} bounds", f"{fmt % (low[i] * scale)} to {fmt % (high[i] * scale)} = {length(high[i] - low[i])}")
+        rows += [(translate("%s bounds") % c, translate("%s to %s = %s") % (fmt % (low[i] * scale), fmt % (high[i] * scale), length(high[i] - low[i])))
                  for i, c in enumerate("XYZ") if low[i] != high[i]]
     return rows

@@ -17,9 +17,12 @@ from .keys import Keys
 from .looks import SCALES, LooksPart
 from .notify import Notifications
 from .preview import Preview
-from .settings import LETTERS, MM_PER_INCH, parse_increment
+from .settings import LETTERS, MM_PER_INCH, N_, parse_increment
 from .variables import Options
 
+VERBS = {"Home": N_("Home"), "Unhome": N_("Unhome")}
+ALL_OF = {("Home", True): N_("Home All Axes"), ("Home", False): N_("Home All Joints"), ("Unhome", True): N_("Unhome All Axes"),
+          ("Unhome", False): N_("Unhome All Joints")}
 CONSTANTS = {name: getattr(linuxcnc, name) for name in (
     "STATE_ESTOP", "STATE_ESTOP_RESET", "STATE_OFF", "STATE_ON", "INTERP_IDLE", "INTERP_READING", "INTERP_PAUSED",
     "INTERP_WAITING", "TRAJ_MODE_FREE", "KINEMATICS_IDENTITY")} | {
@@ -209,8 +212,8 @@ class WindowPart(LooksPart):
         if not s.find("DISPLAY", "PYVCP"):
             tcl.call(".menu.view", "delete", tcl.call("::axis::menu_entry", ".menu.view", self.translate("Show P_yVCP panel")))
         tcl.call("::axis::add_looks_menu", SCALES)
-        home = "Home All" if s.all_sequences() else \
-            "Home Axis" if self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY else "Home Joint"
+        home = N_("Home All") if s.all_sequences() else \
+            N_("Home Axis") if self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY else N_("Home Joint")
         tcl.call("setup_widget_accel", f"{manual}.jogf.zerohome.home", self.translate(home))
         if s.all_sequences():
             self.widgets.homebutton.configure(command="home_all_joints")
@@ -222,12 +225,12 @@ class WindowPart(LooksPart):
         for menu, verb, all_command, one in ((self.widgets.homemenu, "Home", "home_all_joints", "home_joint_number"),
                                              (self.widgets.unhomemenu, "Unhome", "unhome_all_joints", "unhome_joint_number")):
             if verb == "Unhome" or s.all_sequences():
-                menu.add_command(label=_(f"{verb} All {'Axes' if identity else 'Joints'}"), command=all_command)
+                menu.add_command(label=_(ALL_OF[verb, identity]), command=all_command)
             letters = s.trivkins_letters()
             for j in range(s.joints):
                 label = self.joint_label(j, identity, letters)
                 if label:
-                    menu.add_command(label=f"{_(verb)} {label}", command=f"{one} {j}")
+                    menu.add_command(label=f"{_(VERBS[verb])} {label}", command=f"{one} {j}")
         grid = self.widgets.menu_grid
         grid.add_radiobutton(label=_("Off"), variable="grid_size", value=0.0, command="set_grid_size 0.0")
         grid.add_command(label=_("Custom"), command="set_grid_size_custom")
@@ -246,22 +249,22 @@ class WindowPart(LooksPart):
         if identity:
             if j >= len(letters) or self.settings.coordinates.count(letters[j]) != 1:
                 return None
-            return f"Axis  {letters[j]}"
+            return self.translate("Axis") + f"  {letters[j]}"
         sequence = self.settings.home_sequence(j)
         if sequence == "":
-            return f"Joint {j}"
+            return self.translate("Joint") + f" {j}"
         sync = " SYNC" if sequence.strip().startswith("-") else ""
-        return f"Joint {j} (Sequence: {sequence.strip():>2s}{sync})"
+        return self.translate("Joint %d (Sequence: %s)") % (j, f"{sequence.strip():>2s}{sync}")
 
     def fill_windows(self):
         from .help import ABOUT, help1, help2
         about, keys = self.widgets.about_window, self.widgets.help_window
-        tk.Label(about, text=ABOUT % Tree.find().version(), justify="left", padx=16, pady=12).pack()
+        tk.Label(about, text=self.translate(ABOUT) % Tree.find().version(), justify="left", padx=16, pady=12).pack()
         tk.Button(about, text=self.translate("OK"), width=10, command=about.withdraw).pack(pady=8)
         for column, rows in enumerate((help1, help2)):
             for row, (key, text) in enumerate(rows):
                 tk.Label(keys, text=key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(16, 6))
-                tk.Label(keys, text=text, anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 16))
+                tk.Label(keys, text=text and self.translate(text), anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 16))
 
     def bind_text(self):
         t = self.text

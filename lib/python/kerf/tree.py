@@ -40,6 +40,11 @@ class Tree:
                     share / "hallib", share / "linuxcnc.nml", home / "share/doc/linuxcnc/examples/sample-configs",
                     share / "ncfiles", home / "share/tcltk/linuxcnc", home / "lib/linuxcnc/realtime", share)
 
+    @property
+    def locale(self):
+        """Where gettext finds the translations."""
+        return self.home / "share/locale"
+
     def version(self):
         """Version text, as configure wrote it."""
         for name in (self.home / "Makefile.inc", self.share / "Makefile.modinc"):
