@@ -11,6 +11,7 @@ import traceback
 
 import linuxcnc
 from kerf import clock, gl
+from kerf.tktools import ngcgui_tabs
 from kerf.tree import Tree
 
 from . import dialogs, program, remote
@@ -492,8 +493,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.preview.set_view(self.lathe_view() if self.settings.lathe else "p")
         for name in ("feedrate", "rapidrate", "spindlerate"):
             self.set_override(name, 100)
+        ngcgui_tabs.offer(self)
         for words in self.ini.findall("DISPLAY", "TKPKG") or []:
-            self.root.tk.eval(f"package require {words}")
+            try:
+                self.root.tk.eval(f"lappend auto_path {{{Tree.find().tcl}}}; package require {words}")
+            except tk.TclError as error:
+                self.notifications.add("error", f"[DISPLAY]TKPKG = {words}: {error}")
         for path in self.ini.findall("DISPLAY", "TKAPP") or []:
             self.root.tk.call("source", path)
         self.hide_unconnected()

@@ -113,6 +113,8 @@ def _themed(theme, colours, style, letters):
         theme.configure(name, indicatorsize=style.px(14), padding=style.px(2), indicatorbackground=colours["field"],
                         indicatorforeground=colours["ink"])
         theme.map(name, background=[("active", face)], indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
+    theme.configure("TMenubutton", arrowsize=style.px(9), padding=(style.px(8), style.px(4)))
+    theme.configure("Horizontal.TScale", sliderlength=style.px(30))
     theme.configure("TEntry", padding=style.px(3))
     theme.map("TEntry", fieldbackground=[("disabled", face), ("readonly", face)])
     theme.configure("TCombobox", padding=style.px(3), arrowsize=style.px(14))

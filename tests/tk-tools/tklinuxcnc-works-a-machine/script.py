@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+# FP-183, FP-185: coordinates are set in the system in force; the form names it and shows the old values.
 from pathlib import Path
 
 import linuxcnc
@@ -165,10 +166,22 @@ print("aborted:", poll().interp_state == linuxcnc.INTERP_IDLE, round(poll().curr
 print("== windows")
 w.popups.set_coordinates()
 top, entries, accept = w.popups.last_form
-entries["X"].insert(0, "7")
+print(top.title(), [e.split()[:2] for e in entries])
+next(iter(entries.values())).insert(0, "7")
 accept()
 wait(0.5)
 print("set:", dro()[0], state()[-1])
+m.mode(linuxcnc.MODE_MDI)
+c.mdi("G55")
+c.wait_complete()
+wait(0.2)
+w.popups.set_coordinates()
+top, entries, accept = w.popups.last_form
+print(top.title())
+list(entries.values())[1].insert(0, "-3")
+accept()
+wait(0.5)
+print("set:", dro()[1], [round(v, 3) for v in poll().g5x_offset[:2]], round(poll().g92_offset[1], 3))
 w.mdi.delete(0, "end")
 w.mdi.insert(0, "G1 X99999 F100")
 w.send_mdi()

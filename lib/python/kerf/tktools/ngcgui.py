@@ -52,8 +52,9 @@ class Page:
 
     def _controls(self):
         px = self.style.px
-        box = ttk.Frame(self.frame)
-        box.pack(side="left" if not self.o.vert else "top", fill="y")
+        self.controls = Scrolled(self.frame, self.style)
+        self.controls.pack(side="left" if not self.o.vert else "top", fill="y")
+        box = self.controls.inner
         self.buttons, self.names = {}, {}
 
         def button(text, action):
@@ -70,7 +71,8 @@ class Page:
                              ("SendFileToAxis", self.send), ("Exit", self.exit)):
             button(text, action)
         self.picture = ttk.Label(box, anchor="center")
-        self.picture.pack(fill="x", pady=px(6))
+        self.controls.wheel(*box.winfo_children())
+        self.controls.fit_width(px(900))
 
     def say(self, text, bad=False):
         self.status.configure(text=text, style="Bad.TLabel" if bad else "TLabel")
@@ -139,6 +141,11 @@ class Page:
             except (OSError, ImportError) as error:
                 self.say(f"{self.form.picture}: {error}", True)
         self.picture.configure(image=self.image or "")
+        if self.image:
+            self.picture.pack(fill="x", pady=self.style.px(6))
+        else:
+            self.picture.pack_forget()
+        self.controls.fit_width(self.style.px(900))
 
     def entry_key(self, event, text):
         """A letter stands for the machine's coordinate."""

@@ -433,7 +433,7 @@ class Window:
             label.configure(text=names[row] if shown else "")
             homed = shown and self.m.row_homed(row, joints)
             value.configure(text="%10.4f" % self.m.position(row, joints, self.relative.get(), self.actual.get(), self.units.get()) if shown else "",
-                            foreground=colours["good" if homed else "warn" if self.style.dark else "bad"])
+                            foreground=colours["good" if homed else "bad"])
         unit = self.m.unit_name(self.units.get())
         self.info.configure(text=f"Units: {unit}\nTool: {s.tool_in_spindle}\nSystem: G{self.m.system_name()}")
         gcodes = " ".join(f"G{c / 10:g}" for c in s.gcodes[1:] if c != -1)

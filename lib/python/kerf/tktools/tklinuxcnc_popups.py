@@ -97,11 +97,16 @@ class Popups:
         self.last_form = (top, entries, accept)
 
     def set_coordinates(self):
-        """The position becomes the typed one (G92)."""
+        """The position becomes the typed one, in the coordinate system that is in force."""
+        m = self.w.m
+        m.stat.poll()
+        system = f"G{m.system_name()}"
+        fields = {f"{c} (now {m.position(i, False, True, True, 'auto'):.4f} {m.unit_name('auto')})": "" for i, c in enumerate(m.letters)}
+
         def act(values):
             if values:
-                self.mdi("G92 " + " ".join(f"{name}{value:.6f}" for name, value in values.items()))
-        self.form("Set Coordinates", dict.fromkeys(self.w.m.letters, ""), act)
+                self.mdi("G10 L20 P0 " + " ".join(f"{name[0]}{value:.6f}" for name, value in values.items()))
+        self.form(f"Set Coordinates of {system}", fields, act)
 
     def tool_offset(self):
         """Length and diameter of a tool go into the tool table."""

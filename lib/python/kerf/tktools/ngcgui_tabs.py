@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""ngcgui in tabs of AXIS: [DISPLAY]TKPKG = Ngcgui 1.0, one tab for each [DISPLAY]NGCGUI_SUBFILE.
+
+The Tcl package Ngcgui (tcl/pkgIndex.tcl) calls ::ngcgui::embed, which offer() has made.
+"""
+
+import tempfile
+from pathlib import Path
+from tkinter import messagebox, ttk
+
+from .. import tkstyle
+from .ngcgui import DEFAULT_OUT, Page, options, take_ini
+from .ngcfiles import start_folder
+
+COMMAND = "::ngcgui::embed"
+CUSTOM = "Custom"
+
+
+class Tabs:
+    """Pages of one AXIS; app: its App."""
+
+    def __init__(self, app):
+        self.app, self.pages, self.count = app, [], 0
+        self.folder = tempfile.TemporaryDirectory(prefix="ngcgui-")     # of the programs; gone with AXIS
+        root = app.root
+        self.style = getattr(app, "style", None) or tkstyle.Style(tkstyle.DARK if tkstyle.wants_dark() else tkstyle.LIGHT, tkstyle.wants_dark(),
+                                                                   tkstyle.screen_scale(root))
+        self.words = (self.find("DISPLAY", "NGCGUI_OPTIONS") or "").split()
+        for name in app.ini.findall("DISPLAY", "NGCGUI_SUBFILE") or [""]:
+            self.add(name.strip('"'))
+
+    def find(self, section, name):
+        return self.app.ini.find(section, name)
+
+    def place(self, name):
+        """A file of the INI file: as it is, or in the folder of subroutines."""
+        if not name or name.startswith(":") or Path(name).exists():
+            return name
+        folder = Path(self.app.settings.ini_path).resolve().parent / start_folder(self.find)
+        return str(folder / name) if (folder / name).exists() else name
+
+    def add(self, subfile):
+        """One more tab."""
+        o = options([])
+        o.autosend = "noauto" not in self.words
+        take_ini(o, lambda s, n: None if n == "NGCGUI_SUBFILE" else self.find(s, n))
+        o.subfile, o.preamble, o.postamble = (self.place(n) for n in (subfile, o.preamble, o.postamble))
+        o.output = str(Path(self.folder.name) / DEFAULT_OUT)
+        title = Path(subfile).stem if subfile else CUSTOM
+        self.count += 1
+        name = f"ngcgui{self.count}"
+        frame = self.app.wrap(str(self.app.add_tab(name, title)))
+        page = EmbeddedPage(frame, self.style, o, self, name)
+        page.frame.pack(fill="both", expand=True)
+        self.pages.append(page)
+        return page
+
+    def notebook(self, *words):
+        return self.app.root.tk.call(".pane.top.right", *words)
+
+    def remove(self, page):
+        """The tab goes; one with features asks first."""
+        if page.program.features and not messagebox.askyesno("ngcgui", f"{len(page.program.features)} features are in no file yet. Remove the tab?",
+                                                             parent=self.app.root):
+            return
+        self.pages.remove(page)
+        self.notebook("raise", "preview")
+        self.notebook("delete", page.name)
+
+    def move(self, page, step):
+        """One place to the left or right among the tabs of ngcgui."""
+        place = self.pages.index(page) + step
+        if 0 <= place < len(self.pages):
+            names = [str(n) for n in self.app.root.tk.splitlist(self.notebook("pages"))]
+            self.notebook("move", page.name, names.index(self.pages[place].name))
+            self.pages.remove(page)
+            self.pages.insert(place, page)
+
+    def with_features(self):
+        """Pages, from left to right, that have features in no file yet."""
+        return [p for p in self.pages if p.program.features]
+
+
+class EmbeddedPage(Page):
+    """A page that shares its program with the others: Finalize takes the features of all."""
+
+    def __init__(self, frame, style, o, tabs, name):
+        self.tabs, self.name = tabs, name
+        super().__init__(frame, style, o, tabs.find, self.position)
+        self.buttons["Exit"].pack_forget()
+        row = ttk.Frame(self.frame)
+        row.pack(side="bottom", fill="x")
+        for text, option, action in (("new", "nonew", lambda: tabs.add(o.subfile)), ("remove", "noremove", lambda: tabs.remove(self)),
+                                     ("\N{LEFTWARDS ARROW} move", "", lambda: tabs.move(self, -1)), ("move \N{RIGHTWARDS ARROW}", "", lambda: tabs.move(self, 1))):
+            if not option or option not in tabs.words:
+                self.buttons[text] = ttk.Button(row, text=text, takefocus=False, command=action)
+                self.buttons[text].pack(side="left", padx=1)
+
+    def position(self, letter):
+        """What AXIS shows of an axis."""
+        s, i = self.tabs.app.stat, "xyzabcuvw".index(letter)
+        if not s.axis_mask & (1 << i):
+            return None
+        return s.actual_position[i] - s.g5x_offset[i] - s.g92_offset[i] - s.tool_offset[i]
+
+    def finalize(self):
+        """The features of all pages, in the order of the tabs, become one program."""
+        for page in self.tabs.with_features():
+            if page is not self:
+                self.program.features += page.program.features
+                page.restart()
+        super().finalize()
+
+    def send(self):
+        if self.last:
+            self.tabs.app.load(str(Path(self.last).resolve()))
+            self.say(f"Opened: {self.last}")
+
+
+def offer(app):
+    """Makes the command that the Tcl package calls."""
+    app.root.tk.createcommand(COMMAND, lambda *_: Tabs(app) and "")

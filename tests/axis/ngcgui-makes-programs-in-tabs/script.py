@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+import sys
+from pathlib import Path
+
+import operator_lib
+from kerf.tktools import ngcgui_tabs
+from tk_hand import clipped
+
+made = []
+start = ngcgui_tabs.Tabs.__init__
+
+
+def keep(self, app):
+    made.append(self)
+    start(self, app)
+
+
+ngcgui_tabs.Tabs.__init__ = keep
+def script(op):
+    app, out = op.app, open("transcript", "w", buffering=1)
+    sys.stdout = out
+    tabs = made[0]
+    print(op.messages(), file=out)
+    names = app.root.tk.splitlist(app.root.tk.call(".pane.top.right", "pages"))
+    print([str(n) for n in names if str(n).startswith("ngcgui")], [str(app.root.tk.call(".pane.top.right", "itemcget", n, "-text")) for n in names], file=out)
+    line, hop, custom = tabs.pages
+    print([(r[0].name, r[2].get()) for r in line.rows], custom.status.cget("text"), file=out)
+    op.power_on()
+    op.home()
+    app.root.tk.call(".pane.top.right", "raise", "ngcgui1")
+    op.wait(0.2)
+    line.buttons["Create Feature"].invoke()
+    line.rows[0][2].set("25")
+    line.buttons["Create Next"].invoke() if "Create Next" in line.buttons else line.create()
+    hop.create()
+    line.buttons["MakeFile"].invoke()
+    op.until(lambda: app.loaded_file and not app.loading, "the program is opened")
+    op.wait(0.3)
+    print(Path(app.loaded_file).name, hop.program.features, file=out)
+    text = Path(app.loaded_file).read_text()
+    print([l for l in text.splitlines() if "call" in l or "features" in l], file=out)
+    op.key("r")
+    op.wait(0.5)
+    op.idle()
+    print([op.position(i) for i in range(3)], file=out)
+    tabs.add("line.ngc")
+    op.wait(0.2)
+    print([p.name for p in tabs.pages], "cut off:", clipped(line.frame), file=out)
+    tabs.pages[3].buttons["\N{LEFTWARDS ARROW} move"].invoke()
+    line.buttons["remove"].invoke()
+    op.wait(0.2)
+    print([p.name for p in tabs.pages], [str(n) for n in app.root.tk.splitlist(app.root.tk.call(".pane.top.right", "pages")) if "ngcgui" in str(n)], file=out)
+    out.flush()
+
+
+operator_lib.run(script)
