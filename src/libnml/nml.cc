@@ -210,6 +210,8 @@ long NML::get_space_available() {
     return n;
 }
 
+int NML::last_writer() const { return transport_ ? transport_->last_writer() : 0; }
+
 int NML::get_msg_count() {
     int n = -1;
     if (!valid() || set_status(transport_->message_count(&n)) < 0) return -1;

@@ -125,6 +125,7 @@ public:
     int clear();               // 0 or -1
     int get_queue_length();    // messages waiting; -1 when the buffer is no queue
     long get_space_available();// bytes; -1 on error
+    int last_writer() const;   // process that wrote the last message read from a queue; 0: not known
     int get_msg_count();       // messages written so far; -1 on error
 
     NMLmsg *get_address() { return reinterpret_cast<NMLmsg *>(local_.data()); } // last message read

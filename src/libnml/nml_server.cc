@@ -157,6 +157,7 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
             if (decode_message(set_, data, size, m, raw.size(), b.line.coding)) {
                 b.channel->write_raw(*m, w3 == ACCESS_WRITE_IF_READ, &id);
                 s = b.channel->status;
+                if (s == CMS_WRITE_OK && wrote) wrote(c.id, *b.channel, *m);
             }
             if (b.line.confirm_write) words({static_cast<uint32_t>(id), static_cast<uint32_t>(s), 0});
             return s != CMS_UPDATE_ERROR;
@@ -235,6 +236,7 @@ void Server::accept_from(int listener, int port) {
     Client c{};
     c.fd = fd;
     c.port = port;
+    c.id = ++last_client_;
     c.peer = std::string(text) + ":" + std::to_string(ntohs(from.sin_port));
     if (clients_.size() >= MOST_CLIENTS) {
         rcs_print_error("NML server: %s is one connection too many; dropped\n", c.peer.c_str());
@@ -285,8 +287,12 @@ void Server::run(const volatile int *stop) {
                 if (r > 0) c.out.erase(c.out.begin(), c.out.begin() + r);
                 else good = r < 0 && (errno == EAGAIN || errno == EINTR);
             }
-            if (good) kept.push_back(std::move(c));
-            else close(c.fd);
+            if (good) {
+                kept.push_back(std::move(c));
+                continue;
+            }
+            close(c.fd);
+            if (gone) gone(c.id);
         }
         clients_.swap(kept);
         for (size_t i = 0; i < n; i++) {

@@ -8,6 +8,7 @@
 #ifndef KERF_NML_SERVER_HH
 #define KERF_NML_SERVER_HH
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -28,12 +29,15 @@ public:
     bool listen(const std::string &address = "127.0.0.1");
     // Until *stop is set. Wakes at least every 200 ms of wall time to look at it.
     void run(const volatile int *stop);
+    // Called after a client's message was written, and when that client has gone.
+    std::function<void(int client, NML &channel, const NMLmsg &m)> wrote;
+    std::function<void(int client)> gone;
 private:
     struct Buffer { NML *channel; BufferLine line; };
     // A read that waits for a message, until `until` (ns of wall time, negative: for ever).
     struct Pending { bool any = false; uint32_t serial = 0, access = 0; int last_id = 0, number = 0; int64_t until = 0; };
     struct Client {
-        int fd, port;
+        int fd, port, id;
         std::string peer;
         std::set<int> trusted; // numbers of the buffers with passwd= that it has logged in to
         std::string challenge;
@@ -50,6 +54,7 @@ private:
     std::map<std::pair<int, int>, Buffer> buffers_; // (port, number)
     std::vector<std::pair<int, int>> listeners_;    // (fd, port)
     std::vector<Client> clients_;
+    int last_client_ = 0;
 };
 
 } // namespace nml

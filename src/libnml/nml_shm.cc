@@ -41,7 +41,7 @@ struct Book {
     int64_t end;          // queue: where the part above a wrap ends; capacity when not wrapped
 };
 
-struct MessageHead { int64_t was_read, write_id, size; };
+struct MessageHead { int64_t writer, write_id, size; }; // writer: its process
 static_assert(sizeof(MessageHead) == MESSAGE_HEADER_BYTES);
 
 struct Segment {
@@ -118,7 +118,7 @@ public:
         int64_t next_id = b.write_id + 1;
         if (seg_->queue) {
             if (!place(b, size, &to)) return CMS_QUEUE_FULL;
-            MessageHead head{0, next_id, size};
+            MessageHead head{getpid(), next_id, size};
             memcpy(to, &head, sizeof head);
             to += sizeof head;
         } else {
@@ -173,6 +173,7 @@ public:
 
     int last_id() const override { return static_cast<int>(last_id_); }
     void set_last_id(int id) override { last_id_ = id; }
+    int last_writer() const override { return last_writer_; }
 
 protected:
     Connection conn_;
@@ -272,6 +273,7 @@ private:
         memcpy(data, data_of(seg_) + b.head + sizeof head, static_cast<size_t>(head.size));
         *size = static_cast<long>(head.size);
         last_id_ = head.write_id;
+        last_writer_ = static_cast<int>(head.writer);
         if (!remove) return CMS_READ_OK;
         b.length--;
         b.head += taken(head.size);
@@ -310,6 +312,7 @@ private:
     }
 
     int64_t last_id_ = 0;
+    int last_writer_ = 0;
 };
 
 class SharedMemory : public Memory {

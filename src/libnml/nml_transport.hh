@@ -31,6 +31,8 @@ public:
     // Number of the last message read, as read() compares it; a server sets its client's.
     virtual int last_id() const { return 0; }
     virtual void set_last_id(int) {}
+    // The process that wrote the last message read from a queue; 0: not known.
+    virtual int last_writer() const { return 0; }
 };
 
 std::unique_ptr<Transport> open_shared_memory(const Connection &c, bool master);

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -75,6 +76,26 @@ int main(int argc, char **argv) {
     for (auto &c : channels)
         for (auto &l : lines)
             if (l.name == c->buffer_name()) server.add(*c, l);
+    // A client that has gone holds no jog.
+    std::map<int, std::map<std::pair<int, int>, NML *>> jogs; // of a client: (number, mode)
+    server.wrote = [&](int client, NML &channel, const NMLmsg &m) {
+        if (m._type == EMC_JOG_CONT_TYPE) {
+            const EMC_JOG_CONT &j = static_cast<const EMC_JOG_CONT &>(m);
+            jogs[client][{j.joint_or_axis, j.jjogmode}] = &channel;
+        } else if (m._type == EMC_JOG_STOP_TYPE) {
+            const EMC_JOG_STOP &j = static_cast<const EMC_JOG_STOP &>(m);
+            for (auto &c : jogs) c.second.erase({j.joint_or_axis, j.jjogmode});
+        }
+    };
+    server.gone = [&](int client) {
+        for (auto &j : jogs[client]) {
+            EMC_JOG_STOP stop_it;
+            stop_it.joint_or_axis = j.first.first;
+            stop_it.jjogmode = j.first.second;
+            j.second->write_raw(stop_it, false, nullptr);
+        }
+        jogs.erase(client);
+    };
     server.listen(ini.findStringV("NML_BIND", "EMC", "127.0.0.1"));
     server.run(&stop);
     return 0;

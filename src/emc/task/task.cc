@@ -249,6 +249,7 @@ void Task::cycle() {
     watch_errors();
     recover();
     watch_program_error();
+    watch_jogs();
     send_messages();
     publish();
 }
@@ -258,6 +259,7 @@ void Task::read_command() {
     if (type <= 0) return;
     command_ = AnyMessage(*command_channel_->get_address());
     command_serial_ = static_cast<const RCS_CMD_MSG &>(*command_).serial_number;
+    command_writer_ = command_channel_->last_writer();
     plan_error_ = execute_error_ = false;
 }
 
@@ -351,6 +353,20 @@ void Task::watch_program_error() {
     if (stat_.io.coolant.flood) io_.flood(false);
 }
 
+// A continuous jog ends with the program that started it.
+void Task::watch_jogs() {
+    if (!jog_owners_.any()) return;
+    const int64_t now = kerf_clock_now_ns();
+    if (now < jogs_looked_at_ + 20 * MS) return;
+    jogs_looked_at_ = now;
+    for (const JogOwners::Jog &j : jog_owners_.orphans()) {
+        if (!stat_.motion.jogging_active) continue; // it was over
+        motion_.jog_stop(j.first, j.second);
+        operator_error((std::string("Jog of ") + (j.second ? "joint " : "axis ") + (j.second ? std::to_string(j.first) : std::string(1, "XYZABCUVW"[j.first])) +
+                        " stopped: the program that started it has ended").c_str());
+    }
+}
+
 bool Task::all_homed() const {
     const EMC_TRAJ_STAT &t = stat_.motion.traj;
     for (int j = 0; j < t.joints; j++)
@@ -436,6 +452,7 @@ void Task::abort_task() {
     const bool program = requested_mode_ == EMC_TASK_MODE_AUTO && t.interpState != EMC_TASK_INTERP_IDLE;
     const state_tag_t tag = running_tag_;
     motion_.abort();
+    jog_owners_.clear();
     clear_program();
     t.task_paused = 0;
     t.motionLine = t.readLine = 0;

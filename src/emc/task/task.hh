@@ -20,6 +20,7 @@
 #include "interp.hh"
 #include "interp_list.hh"
 #include "io_control.hh"
+#include "jog_owners.hh"
 #include "motion_link.hh"
 #include "offsets_now.hh"
 #include "task_canon.hh"
@@ -47,6 +48,7 @@ private:
     void watch_estop();
     void watch_errors();
     void watch_program_error();
+    void watch_jogs();
     void publish();
     bool connect_channels();
     std::unique_ptr<Interp> make_interpreter(TaskCanon &canon);
@@ -145,6 +147,9 @@ private:
     std::deque<AnyMessage> messages_; // to the operator, not yet sent
     AnyMessage command_;         // the last one read
     int command_serial_ = 0;
+    int command_writer_ = 0;     // process
+    JogOwners jog_owners_;
+    int64_t jogs_looked_at_ = 0;
     bool plan_error_ = false, execute_error_ = false;
     InterpList::Entry pending_;  // taken from the list, not yet issued
     bool wait_ = false;          // a queue buster: no reading until all is done

@@ -139,19 +139,28 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_JOG_CONT_TYPE:
         {
             const EMC_JOG_CONT &j = as<EMC_JOG_CONT>(m);
+            if (j.joint_or_axis >= 0 && j.joint_or_axis < (j.jjogmode ? EMCMOT_MAX_JOINTS : EMCMOT_MAX_AXIS))
+                jog_owners_.started({j.joint_or_axis, j.jjogmode ? 1 : 0}, command_writer_);
             return motion_.jog_cont(j.joint_or_axis, j.vel, j.jjogmode);
         }
     case EMC_JOG_INCR_TYPE:
         {
             const EMC_JOG_INCR &j = as<EMC_JOG_INCR>(m);
+            jog_owners_.ended({j.joint_or_axis, j.jjogmode ? 1 : 0});
             return motion_.jog_incr(j.joint_or_axis, j.incr, j.vel, j.jjogmode);
         }
     case EMC_JOG_ABS_TYPE:
         {
             const EMC_JOG_ABS &j = as<EMC_JOG_ABS>(m);
+            jog_owners_.ended({j.joint_or_axis, j.jjogmode ? 1 : 0});
             return motion_.jog_abs(j.joint_or_axis, j.pos, j.vel, j.jjogmode);
         }
-    case EMC_JOG_STOP_TYPE: return motion_.jog_stop(as<EMC_JOG_STOP>(m).joint_or_axis, as<EMC_JOG_STOP>(m).jjogmode);
+    case EMC_JOG_STOP_TYPE:
+        {
+            const EMC_JOG_STOP &j = as<EMC_JOG_STOP>(m);
+            jog_owners_.ended({j.joint_or_axis, j.jjogmode ? 1 : 0});
+            return motion_.jog_stop(j.joint_or_axis, j.jjogmode);
+        }
     case EMC_TRAJ_SET_TELEOP_ENABLE_TYPE:
         return motion_.set_mode(as<EMC_TRAJ_SET_TELEOP_ENABLE>(m).enable ? EMC_TRAJ_MODE_TELEOP : EMC_TRAJ_MODE_FREE);
     case EMC_TRAJ_SET_SCALE_TYPE: return motion_.scale(EMCMOT_FEED_SCALE, as<EMC_TRAJ_SET_SCALE>(m).scale);

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# FP-060, FP-061: a continuous jog has one owner. When that ends, is killed, or its connection is cut, the
+# axis stops; a jog of another program, and an incremental one, goes on.
+import signal
+import socket
+import struct
+import subprocess
+
+from mill import *
+from wire import port
+
+CLIENT = """
+import linuxcnc, sys
+from kerf import clock
+clock.join("client", 600)
+c = linuxcnc.command()
+{}
+print("jogs", flush=True)
+clock.sleep(1000)
+"""
+
+
+def client(text):
+    child = clock.spawn(["/usr/bin/python3", "-c", CLIENT.format(text)], "client", priority=600, stdout=subprocess.PIPE)
+    return child
+
+
+def moves(axis):
+    a = poll().position[axis]
+    sleep(0.02)
+    return poll().position[axis] != a
+
+
+def check(what, axis, end):
+    need(lambda s: s.position[axis] > 1, f"jog by {what}")
+    end()
+    stopped = clock.wait_until(lambda: not moves(axis), 1, 0.02)
+    at = poll().position[axis]
+    sleep(2)
+    print(f"{what}: stops {stopped} stays {poll().position[axis] == at} {messages()}")
+
+
+def home():
+    c.jog(JOG_STOP, 0, 0)
+    c.jog(JOG_STOP, 0, 1)
+    mdi("G53 G0 X0 Y0")
+    mode(MODE_MANUAL)
+    c.teleop_enable(1)
+    c.wait_complete()
+    messages()
+
+
+def kill(child):
+    child.kill()
+    child.wait()
+
+
+on()
+home()
+child = client("c.jog(linuxcnc.JOG_CONTINUOUS, 0, 0, 5)")
+check("a killed client", 0, lambda: kill(child))
+home()
+child = client("c.jog(linuxcnc.JOG_CONTINUOUS, 0, 0, 5); clock.sleep(0.5); raise SystemExit")
+check("one that ends by itself", 0, lambda: clock.wait_until(lambda: child.poll() is not None, 5))
+home()
+c.teleop_enable(0)
+c.wait_complete()
+child = client("c.jog(linuxcnc.JOG_CONTINUOUS, 1, 1, 5)")
+check("a joint", 1, lambda: kill(child))
+home()
+child = client("c.jog(linuxcnc.JOG_CONTINUOUS, 0, 0, 5)")
+need(lambda s: s.position[0] > 1, "jog")
+c.jog(JOG_CONTINUOUS, 0, 0, 6)
+kill(child)
+sleep(0.5)
+print("another program has taken over:", "goes on" if moves(0) else "stopped", messages())
+home()
+child = client("c.jog(linuxcnc.JOG_INCREMENT, 0, 0, 5, 10)")
+need(lambda s: s.position[0] > 1, "jog")
+kill(child)
+sleep(5)
+print("an increment:", round(poll().position[0], 3), messages())
+home()
+child = client("c.jog(linuxcnc.JOG_CONTINUOUS, 0, 0, 5); clock.sleep(0.5); c.jog(linuxcnc.JOG_STOP, 0, 0)")
+need(lambda s: s.position[0] > 1 and not s.joint[0]["velocity"], "jog")
+kill(child)
+sleep(0.1)
+print("one that was over:", messages())
+home()
+remote = socket.create_connection(("127.0.0.1", port()))
+message = struct.pack(">iqiidi", 124, 48, 0, 0, 5.0, 0)
+remote.sendall(struct.pack(">5I", 1, 2, 1, 4, len(message)) + message)
+remote.recv(12)
+check("a remote client that is cut off", 0, remote.close)
