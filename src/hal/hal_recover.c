@@ -218,6 +218,19 @@ static int count_owned_params(const struct hal_comp *c)
     return n;
 }
 
+/* What a killed process had switched on must not stay on in the signal: back to the value of power-up. */
+static void drop_bits(const struct hal_comp *c)
+{
+    for (hal_off o = c->pins; o;) {
+        struct hal_pin *p = halp_ptr(o);
+        o = p->owner_next;
+        struct hal_sig *s = p->signal ? halp_ptr(p->signal) : NULL;
+        if (s && p->type == HAL_BIT && p->dir == HAL_OUT) {
+            s->value.b = 0;
+        }
+    }
+}
+
 static void reap_comp(struct hal_comp *c)
 {
     struct hal_process owner = {.pid = c->pid, .start = c->pid_start, .ns = c->pid_ns};
@@ -228,6 +241,7 @@ static void reap_comp(struct hal_comp *c)
              "%d parameters\n",
              c->o.name, c->pid, count_owned_pins(c), count_owned_params(c));
     halp_change();
+    drop_bits(c);
     halp_comp_remove(c);
 }
 

@@ -10,6 +10,7 @@ import ctypes
 import getopt
 import os
 import shlex
+import select
 import shutil
 import signal
 import subprocess
@@ -40,6 +41,7 @@ Options:
   -D "PROGRAM [ARGUMENTS]"   display program, instead of [DISPLAY]DISPLAY
 """
 
+WATCH_MS = 100          # at most between two looks at the processes
 READY_WAIT_S = 10.0     # for task to publish the first settings
 CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
 SESSION = "LINUXCNC_SESSION"
@@ -193,6 +195,7 @@ class Session:
         self.watched = {}        # pid -> name: the session ends when one of these dies
         self.display = None
         self.have_lock = False
+        self.task_died = False   # without having put anything in order
 
     # -- helpers ---------------------------------------------------------------------------
 
@@ -435,12 +438,17 @@ class Session:
         command = self.display_command()
         self.display = clock.spawn(command, "display", env=self.env)
         clock.suspend()
-        while True:
+        ends, descriptors = select.poll(), {}    # a process descriptor is readable when the process has ended
+        for pid in [self.display.pid, *self.watched]:
             try:
-                status = self.display.wait(timeout=0.1)
+                descriptors[pid] = os.pidfd_open(pid)
+            except OSError:          # it has gone already
+                continue
+            ends.register(descriptors[pid], select.POLLIN)
+        while True:
+            status = self.display.poll()
+            if status is not None:
                 return status_of(status)
-            except subprocess.TimeoutExpired:
-                pass
             for pid, name in list(self.watched.items()):
                 if state_of(pid) not in "ZX":
                     continue
@@ -448,8 +456,12 @@ class Session:
                     print(f"{name} (process {pid}) died: remote clients are cut off, the machine goes on",
                           file=sys.stderr)
                     del self.watched[pid]
+                    if pid in descriptors:
+                        ends.unregister(descriptors[pid])
                 else:
+                    self.task_died |= name == self.task[:15]
                     raise Failure(f"{name} (process {pid}) died unexpectedly; stopping everything")
+            ends.poll(WATCH_MS)
 
     def display_command(self):
         program, extra = self.display_program, self.display_args + self.options.extra
@@ -471,6 +483,8 @@ class Session:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         clock.leave()
+        if self.task_died:
+            self.try_run("kerf-safe-stop", "-ini", self.ini_path)
         print("Shutting down and cleaning up LinuxCNC...", flush=True)
         if self.display and self.display.poll() is None:
             end([self.display.pid])

@@ -5,6 +5,7 @@ $(eval $(call program,milltask,$(addprefix src/emc/task/,main.cc task.cc task_pl
     task_canon_curves.cc motion_link.cc ini_settings.cc io_control.cc user_codes.cc) src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c $(EMC_CLIENT_SOURCES), \
     nml linuxcncini rs274 tooldata linuxcnchal,$(TASK_FLAGS)))
 $(eval $(call program,linuxcncsvr,src/emc/task/linuxcncsvr.cc $(EMC_CLIENT_SOURCES),nml linuxcncini linuxcnchal,$(TASK_FLAGS)))
+$(eval $(call program,kerf-safe-stop,src/emc/task/safe_stop.cc src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c $(EMC_CLIENT_SOURCES),nml linuxcncini linuxcnchal,$(TASK_FLAGS)))
 
 # Test programs of tests/task: objects/test/task-NAME.
 define task_test

@@ -229,6 +229,9 @@ void Task::run(const volatile int *stop) {
 
 void Task::shutdown() {
     if (interp_) interp_->exit();
+    for (int s = 0; s < stat_.motion.traj.spindles; s++)
+        if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
+    io_.estop_on(); // what its pins feed keeps the last value
     motion_.disable();
     update_motion();
     if (!settings_.position_file.empty()) motion_.save_positions(settings_.position_file);

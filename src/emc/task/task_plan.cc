@@ -248,10 +248,10 @@ int Task::set_state(int state) {
     switch (state) {
     case EMC_TASK_STATE_ON:
         {
-            int r = motion_.enable();
-            if (stat_.io.aux.estop) operator_error("The machine stays off: the emergency stop chain is open (iocontrol.0.emc-enable-in)");
             io_.flood(false);
-            return r;
+            if (!stat_.io.aux.estop) return motion_.enable();
+            operator_error("The machine stays off: the emergency stop chain is open (iocontrol.0.emc-enable-in)");
+            return -1;
         }
     case EMC_TASK_STATE_OFF:
         motion_.traj_abort();

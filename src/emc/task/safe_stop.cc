@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// safe_stop.cc - `kerf-safe-stop -ini FILE`: what task did at its end when it can not do it any more.
+//
+// In:     motion's command block
+// Out:    motion aborted and disabled, spindles off. What task's pins fed falls when HAL removes its
+//         component, at the latest now (hal_init)
+// Thread: [task]; the launcher runs it when task has died, never beside a task that lives
+#include <cstdio>
+#include <cstring>
+
+#include "emc_args.hh"
+#include "hal.h"
+#include "inifile.hh"
+#include "usrmotintf.h"
+
+namespace {
+
+constexpr double ECHO_S = 0.2; // of a motion that runs; one that does not can not move anything
+
+bool order(cmd_code_t what, int spindle = 0) {
+    emcmot_command_t c;
+    memset(&c, 0, sizeof c);
+    c.command = what;
+    c.spindle = spindle;
+    return usrmotWriteEmcmotCommand(&c) == EMCMOT_COMM_OK;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    EmcArgs args(argc, argv);
+    linuxcnc::IniFile ini;
+    int key = 100, spindles = 1;
+    if (ini.open(args.ini_file)) {
+        key = ini.findIntV("SHMEM_KEY", "EMCMOT", key);
+        spindles = ini.findIntV("SPINDLES", "TRAJ", spindles);
+    }
+    const int comp = hal_init("safe-stop");
+    if (comp < 0) return 1;
+    hal_ready(comp);
+    bool good = usrmotInit("safe-stop", key, ECHO_S) == 0;
+    if (good) {
+        usrmotSetQuiet(1);
+        good = order(EMCMOT_ABORT);
+        for (int s = 0; good && s < spindles; s++) good = order(EMCMOT_SPINDLE_OFF, s);
+        good = order(EMCMOT_DISABLE) && good;
+        usrmotExit();
+    }
+    hal_exit(comp);
+    return good ? 0 : 1;
+}

@@ -1,0 +1,21 @@
+#!/bin/bash
+# kill -9 of task in the middle of a program with spindle and coolant on, and an ordinary end in the middle of one: while
+# the realtime part still runs, outputs and enables fall and motion ends.
+export KERF_CLOCK=virtual KERF_INSTANCE=${KERF_INSTANCE:-falls}
+out=$(mktemp -d); trap 'rm -rf "$out"' EXIT
+export HOME=$out
+cp -r "$EMC2_HOME/configs/sim/mill" "$out/machine"
+here=$PWD
+sed -i 's/^HALUI *=.*//; s/^\[TRAJ\]/[TRAJ]\nNO_FORCE_HOMING = 1/' "$out/machine/mill.ini"
+cat >> "$out/machine/spindle.hal" <<'HAL'
+net flood iocontrol.0.coolant-flood
+net mist iocontrol.0.coolant-mist
+HAL
+for victim in milltask display; do
+    printf '#!/bin/sh\nexec /usr/bin/python3 -B %s/watcher.py %s %s\n' "$here" $victim "$out" > "$out/display"; chmod +x "$out/display"
+    linuxcnc -r -D "$out/display" "$out/machine/mill.ini" > "$out/log" 2>&1 < /dev/null
+    echo "$victim: status $([ $? -ne 0 ] && echo not 0 || echo 0)"
+    for _ in $(seq 500); do [ -e "$out/seen" ] && break; sleep 0.02; done
+    cat "$out/seen" || cat "$out/log"
+    rm -f "$out/seen"
+done

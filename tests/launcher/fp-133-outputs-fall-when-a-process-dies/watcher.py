@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""watcher.py VICTIM FOLDER: runs a program, kills the victim and writes to FOLDER/seen what became of the outputs."""
+import os
+import signal
+import sys
+from pathlib import Path
+
+import hal
+import linuxcnc
+from kerf import clock
+
+victim, folder = sys.argv[1], Path(sys.argv[2])
+PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out")
+SIGNALS = ("flood", "mist", "estop-loop")
+clock.join("observer", 900)
+me = hal.component("observer")
+me.ready()
+s, c = linuxcnc.stat(), linuxcnc.command()
+for order in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
+    c.state(order)
+    c.wait_complete()
+c.mode(linuxcnc.MODE_AUTO)
+(folder / "p.ngc").write_text("M3 S1000\nM7\nM8\nF30\nG1 X300\nX0\nM2\n")
+c.program_open(str(folder / "p.ngc"))
+c.auto(linuxcnc.AUTO_RUN, 0)
+
+
+def high():
+    return [p for p in PINS if hal.get_value(p)] + [x for x in SIGNALS if hal.get_value(x)]
+
+
+def moving():
+    a = hal.get_value("joint.0.motor-pos-cmd")
+    clock.sleep(0.01)
+    return hal.get_value("joint.0.motor-pos-cmd") != a
+
+
+while not (len(high()) == len(PINS) + len(SIGNALS) and moving()):
+    clock.sleep(0.01)
+session = [e for e in Path("/proc/self/environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")][0]
+if os.fork():
+    if victim == "display":     # it ends
+        os._exit(0)
+    for p in Path("/proc").iterdir():
+        try:
+            if (p / "comm").read_text() == "milltask\n" and session in (p / "environ").read_bytes().split(b"\0"):
+                os.kill(int(p.name), signal.SIGKILL)
+        except OSError:
+            pass
+    clock.leave()
+    signal.pause()
+signal.signal(signal.SIGTERM, signal.SIG_IGN)    # a child looks on, to see what comes after
+os.setsid()
+clock.join("onlooker", 900)
+left, at, before = high(), 0.0, 1.0
+try:                        # every cycle of the realtime part, to its last
+    while True:
+        left, before, at = high(), at, hal.get_value("joint.0.motor-pos-cmd")
+        clock.sleep(0.001)
+except RuntimeError:        # the pins are gone
+    pass
+(folder / "seen.new").write_text(f"    still on at the end: {left}, motion {'goes on' if at != before else 'stands'}\n")
+os.rename(folder / "seen.new", folder / "seen")
+os._exit(0)
