@@ -193,8 +193,29 @@ bool Task::start() {
     motion_.unhome(-2);
     motion_.set_mode(EMC_TRAJ_MODE_FREE);
     update_motion();
+    open_journal();
     publish();
     return true;
+}
+
+// Tells the operator what a power cut or a crash has interrupted.
+void Task::open_journal() {
+    std::string file = ini_.findStringV("JOURNAL", "TASK", canon_settings_.parameter_file.empty() ? "" : canon_settings_.parameter_file + ".journal");
+    if (strcasecmp(file.c_str(), "none") == 0) file.clear();
+    const std::string left = journal_.open(file);
+    if (left.empty()) return;
+    auto after = [&](const char *word) {
+        const size_t at = ("\n" + left).find("\n" + std::string(word) + " ");
+        if (at == std::string::npos) return std::string("?");
+        const size_t from = at + strlen(word) + 1;
+        return left.substr(from, left.find('\n', from) - from);
+    };
+    const std::string program = after("program");
+    operator_display(("The last run was cut off at line " + after("line") + " of " + program.substr(program.rfind('/') + 1) + " (" + after("time") + ", position " +
+                      after("position") + "). Home the machine, open the program and start at that line; all of it is in " + file)
+                         .substr(0, LINELEN - 1)
+                         .c_str());
+    rcs_print("%s", left.c_str());
 }
 
 void Task::run(const volatile int *stop) {
@@ -253,6 +274,7 @@ void Task::cycle() {
     recover();
     watch_program_error();
     watch_jogs();
+    journal_.update(stat_, program_, stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE);
     send_messages();
     publish();
 }

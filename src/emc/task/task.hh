@@ -21,6 +21,7 @@
 #include "interp_list.hh"
 #include "io_control.hh"
 #include "jog_owners.hh"
+#include "journal.hh"
 #include "motion_link.hh"
 #include "offsets_now.hh"
 #include "task_canon.hh"
@@ -50,6 +51,7 @@ private:
     void watch_program_error();
     void watch_jogs();
     void publish();
+    void open_journal();
     bool connect_channels();
     std::unique_ptr<Interp> make_interpreter(TaskCanon &canon);
     InterpOptions interp_options() const;
@@ -149,6 +151,7 @@ private:
     int command_serial_ = 0;
     int command_writer_ = 0;     // process
     JogOwners jog_owners_;
+    Journal journal_;
     int64_t jogs_looked_at_ = 0;
     bool plan_error_ = false, execute_error_ = false;
     InterpList::Entry pending_;  // taken from the list, not yet issued

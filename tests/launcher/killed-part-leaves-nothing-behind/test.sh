@@ -11,9 +11,10 @@ printf '#!/bin/sh\ntouch %s/ready\nexec sleep 60\n' "$out" > "$out/display"; chm
 
 # Processes of this instance whose name begins with $1 ("" = all), this shell and its helpers aside.
 mine() {
-    for d in /proc/[0-9]*; do
-        tr '\0' '\n' 2>/dev/null < "$d/environ" | grep -q '^LINUXCNC_SESSION=' || continue
-        tr '\0' '\n' 2>/dev/null < "$d/environ" | grep -qx "KERF_INSTANCE=$KERF_INSTANCE" || continue
+    local d
+    for d in $(grep -lzx "KERF_INSTANCE=$KERF_INSTANCE" /proc/[0-9]*/environ 2>/dev/null); do
+        d=${d%/environ}
+        grep -qz '^LINUXCNC_SESSION=' "$d/environ" 2>/dev/null || continue
         case $(cat "$d/comm" 2>/dev/null) in "$1"*) echo "${d#/proc/}" ;; esac
     done
 }
