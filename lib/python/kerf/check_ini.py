@@ -236,6 +236,17 @@ class Checker:
             check()
 
 
+def check(ini, name, strict=False):
+    """Prints what is wrong with an INI file; 1 when a machine must not start with it, else 0."""
+    checker = Checker(ini)
+    checker.run()
+    for kind, texts in checker.messages.items():
+        for text in texts:
+            print(f"{name}: {kind}: {text}", file=sys.stderr)
+    bad = checker.messages["error"] or (strict and checker.messages["warning"])
+    return 1 if bad else 0
+
+
 def main(argv):
     usage = "Usage: linuxcnc_check_ini [-e|--error] [-h|--help] FILE\n  -e  warnings are errors"
     strict = any(a in ("-e", "--error") for a in argv)
@@ -255,10 +266,4 @@ def main(argv):
     except IniError as e:
         sys.stderr.write(str(e))
         return 2
-    checker = Checker(ini)
-    checker.run()
-    for kind, texts in checker.messages.items():
-        for text in texts:
-            print(f"{files[0]}: {kind}: {text}", file=sys.stderr)
-    bad = checker.messages["error"] or (strict and checker.messages["warning"])
-    return 1 if bad else 0
+    return check(ini, files[0], strict)

@@ -105,22 +105,20 @@ def status_of(returncode):
 
 
 def session_processes(session):
-    """Ids of all other processes that this session started, at any depth."""
+    """Ids of all other processes that this session started, at any depth; the likely ones come first."""
     wanted = f"{SESSION}={session}".encode()
-    found = []
-    for entry in os.listdir("/proc"):
-        if not entry.isdigit() or int(entry) in (os.getpid(), os.getppid()):
+    me, parent = os.getpid(), os.getppid()
+    for pid in sorted((int(e) for e in os.listdir("/proc") if e.isdigit()), key=lambda p: (p < me, p)):
+        if pid in (me, parent):
             continue
         try:
-            with open(f"/proc/{entry}/environ", "rb") as f:
+            with open(f"/proc/{pid}/environ", "rb") as f:
                 if wanted not in f.read().split(b"\0"):
                     continue
-            with open(f"/proc/{entry}/stat") as f:
-                if f.read().rsplit(")", 1)[1].split()[0] not in "ZX":
-                    found.append(int(entry))
         except OSError:
             continue
-    return found
+        if state_of(pid) not in "ZX":
+            yield pid
 
 
 def comm_of(pid):
@@ -234,11 +232,9 @@ class Session:
             print(f"Machine configuration file is '{os.path.basename(self.ini_path)}'", flush=True)
         if self.ini.get("EMC", "VERSION") != "1.1":
             self.update_ini()
-        status = self.run("linuxcnc_check_ini", self.ini_path)
-        if status == 1:
+        from . import check_ini
+        if check_ini.check(self.ini, self.ini_path):
             raise Failure("linuxcnc_check_ini validation failed")
-        if status:
-            raise Failure("linuxcnc_check_ini validation failed in an unexpected way.", status)
 
     def update_ini(self):
         if not os.environ.get("DISPLAY"):       # nobody to ask: the backup keeps the old files
@@ -429,10 +425,15 @@ class Session:
 
     def watch(self):
         """Remembers the programs without which the machine cannot go on."""
+        wanted = {self.task[:15], "rtapi_app", "linuxcncsvr"}
         for pid in session_processes(self.id):
             name = comm_of(pid)
-            if name == self.task[:15] or name.startswith("rtapi_app") or name == "linuxcncsvr":
+            kind = "rtapi_app" if name.startswith("rtapi_app") else name
+            if kind in wanted:
                 self.watched[pid] = name
+                wanted.remove(kind)
+                if not wanted:
+                    break
 
     def run_display(self):
         command = self.display_command()
@@ -489,7 +490,7 @@ class Session:
         if self.display and self.display.poll() is None:
             end([self.display.pid])
         shutdown = self.ini.get("HAL", "SHUTDOWN") if self.ini else None
-        running = session_processes(self.id)
+        running = list(session_processes(self.id))
         host = [p for p in running if comm_of(p).startswith("rtapi_app")]
         if shutdown and host:
             print("Running HAL shutdown script")
@@ -501,7 +502,7 @@ class Session:
             self.try_run("halcmd", "stop")
             self.try_run("halcmd", "unload", "all")
         self.try_run(str(self.tree.realtime), "stop")
-        for pid in end(session_processes(self.id)):
+        for pid in end(list(session_processes(self.id))):
             print(f"Could not kill task {comm_of(pid)}, PID={pid}")
         self.remove_nml_buffers()
         if remove_lock:

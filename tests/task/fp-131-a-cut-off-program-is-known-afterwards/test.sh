@@ -10,5 +10,5 @@ for part in cut again end; do
     linuxcnc -r -D "$out/display" "$out/machine/mill.ini" > "$out/log" 2>&1 < /dev/null
     echo "$part: status $([ $? -ne 0 ] && echo not 0 || echo 0)"
     sed "s|$out|OUT|g" "$out/out"
-    ls "$out"/machine | grep journal
+    ls "$out"/machine | grep journal || :
 done
