@@ -24,7 +24,7 @@ PROJECT = project(
      {**line(0, 7), **wide(9, 0, OPERATE, 0)}, {**line(0, 7), **wide(9, 0, OPERATE, 1)}],
     {"arithmetic_expressions.csv": ["0000,@200/3@:=4660", "0001,@280/0@:=@200/7@"],
      "com_params.txt": ["MODBUS_MASTER_SERIAL_PORT={port}", "MODBUS_MASTER_SERIAL_SPEED=19200", "MODBUS_MASTER_SERIAL_PARITY=2",
-                        "MODBUS_MASTER_TIME_INTER_FRAME=2", "MODBUS_MASTER_TIME_OUT_RECEIPT=150", "MODBUS_ELEMENT_OFFSET=0",
+                        "MODBUS_MASTER_TIME_INTER_FRAME=2", "MODBUS_MASTER_TIME_OUT_RECEIPT=400", "MODBUS_ELEMENT_OFFSET=0",
                         "MODBUS_DEBUG_LEVEL=0", "MODBUS_MAP_INPUT=0", "MODBUS_MAP_COIL_READ=0", "MODBUS_MAP_COIL_WRITE=0",
                         "MODBUS_MAP_HOLDING=200", "MODBUS_MAP_REGISTER_READ=200", "MODBUS_MAP_REGISTER_WRITE=200"],
      "modbusioconf.csv": ["#VER=1.0", "3,0,100,10,0,2",     # read inputs 100.. into %B2..11
@@ -118,8 +118,11 @@ def main() -> None:
             program = subprocess.Popen(["classicladder", "--modmaster", str(path)])
             # the first round may have met a ladder that had not run yet
             slave.serve(lambda: len(slave.log) >= 24 and slave.log[-1][1] == 8, "three rounds")
-            for frame in slave.log[-8:]:
+            # on a busy computer an answer may have come too late: the request was made again
+            frames = [f for n, f in enumerate(slave.log) if n == 0 or f != slave.log[n - 1]]
+            for frame in frames[-8:]:
                 print(frame.hex(" "))
+            slave.serve(lambda: not failed(), "the last request done")
             print("failed:", failed(), " register 7:", hal("halcmd", "getp", "classicladder.0.s32out-00"))
             attributes = termios.tcgetattr(line_fd)
             print("line:", attributes[4] == termios.B19200, "two stop bits:", bool(attributes[2] & termios.CSTOPB))
