@@ -34,14 +34,23 @@ class RunError(Exception):
     """Ends the run with exit status 1; the text is for the user."""
 
 
-def read_tools(path):
-    """Tools of a table as the interpreter takes them: number, nine offsets, diameter, two angles, orientation."""
-    tools = []
+def tool_lines(ini, folder):
+    """Lines of the machine's tool table, from its file or its database program."""
+    program = ini.get("EMCIO", "DB_PROGRAM")
     try:
-        text = path.read_text(errors="replace")
-    except OSError:
-        return tools
-    for line in text.splitlines():
+        if not program:
+            return (folder / (ini.get("EMCIO", "TOOL_TABLE") or "tool.tbl")).read_text(errors="replace").splitlines()
+        done = subprocess.run(program.split(), cwd=folder, input="g\n", stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, text=True, timeout=READY_S)
+        return done.stdout.splitlines()
+    except (OSError, subprocess.SubprocessError):
+        return []
+
+
+def read_tools(ini, folder):
+    """Tools of a machine as the interpreter takes them: number, nine offsets, diameter, two angles, orientation."""
+    tools = []
+    for line in tool_lines(ini, folder):
         words = {m[1].upper(): float(m[2]) for m in re.finditer(r"([A-Za-z])\s*([+-]?[\d.]+)", line.split(";")[0])}
         if "T" in words:
             tools.append((int(words["T"]), *(words.get(c, 0.0) for c in "XYZABCUVWDIJ"), int(words.get("Q", 0))))
@@ -64,7 +73,7 @@ def check_program(program, ini_path, env):
         os.chdir(folder)  # as task: the folder of relative SUBROUTINE_PATHs
         try:
             result = gcode.load(str(program), str(copy), [startup] if startup else None,
-                                tools=read_tools(folder / (ini.get("EMCIO", "TOOL_TABLE") or "tool.tbl")),
+                                tools=read_tools(ini, folder),
                                 axis_mask=sum(1 << i for i, c in enumerate("XYZABCUVW") if c in letters),
                                 linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
                                 ini=str(ini_path))
@@ -310,6 +319,26 @@ def run_display(argv):
     return 1 if report["problems"] else 0
 
 
+def copy_folder(folder, scratch):
+    """Copies a machine's folder below scratch; where its files say `../`, what lies there is linked."""
+    depth = 0
+    for path in folder.rglob("*"):
+        if path.is_file() and path.stat().st_size < 1 << 20:
+            for m in re.finditer(rb"(?:\.\./)+", path.read_bytes()):
+                depth = max(depth, len(m[0]) // 3)
+    depth = min(depth, len(folder.parents) - 1)
+    chain = [folder, *folder.parents][depth::-1]
+    copy = Path(scratch) / "tree"
+    for ancestor, child in zip(chain, chain[1:]):
+        copy.mkdir()
+        for entry in ancestor.iterdir():
+            if entry != child:
+                (copy / entry.name).symlink_to(entry)
+        copy = copy / child.name
+    shutil.copytree(folder, copy)
+    return copy
+
+
 def print_report(report, picture):
     unit = report["linear_units"] or "unit"
     print(f"Program            {report['program']}")
@@ -353,8 +382,7 @@ def main(argv):
     env = tree.environment()
     os.environ.update(env)
     with tempfile.TemporaryDirectory(prefix="kerf-run-") as scratch:
-        folder = Path(scratch) / "machine"
-        shutil.copytree(Path(o.ini).resolve().parent, folder)
+        folder = copy_folder(Path(o.ini).resolve().parent, scratch)
         ini_path = folder / Path(o.ini).name
         report_file = Path(scratch) / "report.json"
         try:
