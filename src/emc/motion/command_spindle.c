@@ -55,6 +55,9 @@ void cmd_spindle_on(M *m, C *c)
         sp->orient_state = EMCMOT_ORIENT_NONE;
         sp->state = c->state;
         sp->speed = limit_speed(sp, c->vel);
+        if (c->vel != 0.0 && sp->speed == 0.0 && c->state)
+            report_error("spindle %d stays at rest: its limit in this direction is 0 rpm ([SPINDLE_%d]MAX_%s_VELOCITY)", s, s,
+                         c->vel > 0.0 ? "FORWARD" : "REVERSE");
         sp->css_factor = c->ini_maxvel;
         sp->xoffset = c->acc;
         if (c->state) {
