@@ -2,13 +2,16 @@
 """linuxcnc_check_ini: finds mistakes in an INI file before anything starts.
 
 Exit status: 0 nothing worse than warnings, 1 errors, 2 usage or unreadable file.
-Checks and texts: INI reference, section 5.
+Checks and texts here: INI reference, section 5; check_settings.py has what goes beyond.
+Each message begins with file and line of the setting, or the file alone when there is none.
 """
 
 import fnmatch
+import os
 import re
 import sys
 
+from .check_settings import Settings
 from .inivalues import IniError, IniValues
 
 MANY_JOINTS = 16
@@ -65,14 +68,29 @@ class Checker:
         self.ini = ini
         self.messages = {"info": [], "warning": [], "error": []}
 
-    def info(self, text):
-        self.messages["info"].append(text)
+    # Messages; the place is the n-th (from 1) NAME of the section, by default what the text begins with.
 
-    def warning(self, text):
-        self.messages["warning"].append(text)
+    def info(self, text, section=None, name=None, n=1):
+        self.messages["info"].append((text, section, name, n))
 
-    def error(self, text):
-        self.messages["error"].append(text)
+    def warning(self, text, section=None, name=None, n=1):
+        self.messages["warning"].append((text, section, name, n))
+
+    def error(self, text, section=None, name=None, n=1):
+        self.messages["error"].append((text, section, name, n))
+
+    @staticmethod
+    def covered(table, section, name):
+        return any(fnmatch.fnmatchcase(section, pattern) and name in names for pattern, names in table)
+
+    def has_enum(self, section, name):
+        return self.covered([(p, [n]) for p, n, *_ in ENUMS], section, name)
+
+    def has_bool(self, section, name):
+        return self.covered([(p, names.split()) for p, names in BOOLS.items()], section, name)
+
+    def has_int(self, section, name):
+        return self.covered([(p, [n]) for p, n, *_ in INTS], section, name)
 
     def sections(self, pattern):
         return [s for s in self.ini.sections if fnmatch.fnmatchcase(s, pattern)]
@@ -230,40 +248,74 @@ class Checker:
                              "apart: give them the same negative HOME_SEQUENCE")
 
     def run(self):
+        """The documented checks. False: what is mandatory is missing, nothing else was looked at."""
         if not self.mandatory():
-            return
+            return False
         for check in (self.duplicates, self.enums, self.bools, self.ints, self.motion, self.kinematics):
             check()
+        return True
+
+    def places(self, path):
+        """{(section, name, n): "file:line"} of the settings that messages are about."""
+        import linuxcnc
+        ini = linuxcnc.ini(path)
+        found = {}
+        for texts in self.messages.values():
+            for text, section, name, n in texts:
+                m = re.match(r"\[(\S+?)\](\w*)", text)
+                if section is None and m:
+                    section, name = m[1], m[2]
+                if name is None and section in self.ini.sections:
+                    name = next(iter(self.ini.sections[section]), None)
+                if name and name in self.ini.sections.get(section, {}):
+                    file, line = ini.lineof(section, name, n)
+                    if file:
+                        found[text] = f"{file}:{line}"
+        return found
 
 
-def check(ini, name, strict=False):
-    """Prints what is wrong with an INI file; 1 when a machine must not start with it, else 0."""
+def check(ini, path, strict=False, dry_run=False):
+    """Prints what is wrong with an INI file; 1 when a machine must not start with it, else 0.
+
+    strict: warnings are errors. dry_run: the HAL files are loaded too.
+    """
     checker = Checker(ini)
-    checker.run()
+    if checker.run():
+        Settings(checker, os.path.dirname(path) or ".").run()
+    if dry_run and not checker.messages["error"]:
+        from .dry_run import load_hal
+        for text in load_hal(path):
+            checker.error(text)
+    places = checker.places(path) if any(checker.messages.values()) else {}
     for kind, texts in checker.messages.items():
-        for text in texts:
-            print(f"{name}: {kind}: {text}", file=sys.stderr)
+        for text, *_ in texts:
+            print(f"{places.get(text, path)}: {kind}: {text}", file=sys.stderr)
     bad = checker.messages["error"] or (strict and checker.messages["warning"])
     return 1 if bad else 0
 
 
 def main(argv):
-    usage = "Usage: linuxcnc_check_ini [-e|--error] [-h|--help] FILE\n  -e  warnings are errors"
-    strict = any(a in ("-e", "--error") for a in argv)
+    usage = ("Usage: linuxcnc_check_ini [-e|--error] [-n|--dry-run] [-h|--help] FILE\n"
+             "  -e  warnings are errors\n"
+             "  -n  also load the HAL files, in an instance of its own; no thread is started and no display,\n"
+             "      but programs and drivers that the HAL files name are loaded")
     if any(a in ("-h", "--help") for a in argv):
         print(usage)
         return 2
     files = [a for a in argv if not a.startswith("-")]
-    unknown = [a for a in argv if a.startswith("-") and a not in ("-e", "--error")]
+    options = {"-e": "error", "--error": "error", "-n": "dry-run", "--dry-run": "dry-run"}
+    unknown = [a for a in argv if a.startswith("-") and a not in options]
     if unknown:
         print(f"Unhandled option: '{unknown[0]}'", file=sys.stderr)
         return 2
+    wanted = {options[a] for a in argv if a in options}
     if len(files) != 1:
         print("Must have exactly one argument specifying the INI-file path.", file=sys.stderr)
         return 2
+    path = files[0]
     try:
-        ini = IniValues(files[0])
+        ini = IniValues(path)
     except IniError as e:
         sys.stderr.write(str(e))
         return 2
-    return check(ini, files[0], strict)
+    return check(ini, path, "error" in wanted, "dry-run" in wanted)

@@ -39,6 +39,7 @@ Options:
   -m "MODULE [PARAMETERS]"   homing module
   -H DIR       search DIR for HAL files first (may be repeated)
   -D "PROGRAM [ARGUMENTS]"   display program, instead of [DISPLAY]DISPLAY
+  -n           try: load everything up to the HAL files, start no thread and no display, and stop
 """
 
 WATCH_MS = 100          # at most between two looks at the processes
@@ -60,11 +61,11 @@ class Options:
     """The command line."""
 
     def __init__(self, argv):
-        self.debug = self.verbose = self.test_mode = self.keep_going = self.last = False
+        self.debug = self.verbose = self.test_mode = self.keep_going = self.last = self.try_only = False
         self.tpmod = self.homemod = self.display = None
         self.hallib_dirs = []
         try:
-            found, rest = getopt.getopt(argv, "dvlhkrH:t:m:D:")
+            found, rest = getopt.getopt(argv, "dvlhkrnH:t:m:D:")
         except getopt.GetoptError as e:
             print(f"linuxcnc: {e}", file=sys.stderr)
             print(USAGE)
@@ -79,7 +80,7 @@ class Options:
                     sys.exit(1)
                 self.hallib_dirs.append(os.path.realpath(value))
             else:
-                name = {"-d": "debug", "-v": "verbose", "-r": "test_mode", "-k": "keep_going", "-l": "last",
+                name = {"-d": "debug", "-v": "verbose", "-r": "test_mode", "-k": "keep_going", "-l": "last", "-n": "try_only",
                         "-t": "tpmod", "-m": "homemod", "-D": "display"}[flag]
                 setattr(self, name, value or True)
         self.ini = rest[0] if rest else None
@@ -190,10 +191,13 @@ class Session:
             self.env.update(PYOPENGL_PLATFORM="x11", GDK_BACKEND="x11", QT_QPA_PLATFORM="xcb")
         # Our own look-ups (subprocess, shutil.which) use the same path.
         os.environ["PATH"] = self.env["PATH"]
+        os.environ["HALLIB_PATH"] = hallib_path
         self.watched = {}        # pid -> name: the session ends when one of these dies
         self.display = None
         self.have_lock = False
         self.task_died = False   # without having put anything in order
+        self.splash = None
+        self.hal_failed = False  # some HAL file or command, with -k
 
     # -- helpers ---------------------------------------------------------------------------
 
@@ -233,7 +237,7 @@ class Session:
         if self.ini.get("EMC", "VERSION") != "1.1":
             self.update_ini()
         from . import check_ini
-        if check_ini.check(self.ini, self.ini_path):
+        if not self.options.try_only and check_ini.check(self.ini, self.ini_path):
             raise Failure("linuxcnc_check_ini validation failed")
 
     def update_ini(self):
@@ -259,7 +263,7 @@ class Session:
         if not words:
             raise Failure(f"{self.ini_path}: [DISPLAY]DISPLAY is missing: name a user interface, e.g. DISPLAY = axis")
         self.display_program, self.display_args = words[0], words[1:]
-        nml = get("EMC", "NML_FILE")
+        nml = get("LINUXCNC", "NML_FILE") or get("EMC", "NML_FILE")
         self.env.update(NMLFILE=os.path.join(os.path.dirname(self.ini_path), nml) if nml else str(self.tree.nml),
                         TRAJ_COORDINATES=get("TRAJ", "COORDINATES") or "",
                         KINS_KINEMATICS=get("KINS", "KINEMATICS") or "")
@@ -318,6 +322,7 @@ class Session:
         o, env = self.options, self.env
         print("Starting LinuxCNC...", flush=True)
         os.chdir(os.path.dirname(self.ini_path))
+        self.show_splash()
         env["INI_FILE_NAME"] = self.ini_path
         self.need_program("linuxcncsvr", "Can't execute server program linuxcncsvr")
         if self.run("linuxcncsvr", "-ini", self.ini_path):
@@ -338,6 +343,8 @@ class Session:
         if self.halbridge:
             self.run(*self.halcmd, "loadusr", "-Wn", "bridge", *self.halbridge.split())
         self.load_hal()
+        if self.options.try_only:
+            return 1 if self.hal_failed else 0
         if self.run(*self.halcmd, "start"):
             raise Failure("halcmd start failed")
         self.start_applications()
@@ -345,10 +352,34 @@ class Session:
         self.watch()
         return self.run_display()
 
+    def show_splash(self):
+        """Shows [DISPLAY]INTRO_GRAPHIC while the machine starts, for INTRO_TIME seconds at most."""
+        name = self.ini.get("DISPLAY", "INTRO_GRAPHIC")
+        if not name or not os.environ.get("DISPLAY"):
+            return
+        for path in (os.path.expanduser(name), os.path.join(os.path.dirname(self.ini_path), name),
+                     str(self.tree.share / "images" / name)):
+            if os.path.isfile(path):
+                seconds = self.ini.get("DISPLAY", "INTRO_TIME", "5")
+                self.splash = subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "splash", path, seconds],
+                                               env=self.python_env(), stdin=subprocess.DEVNULL,
+                                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                return
+
+    def python_env(self):
+        """The session's environment for a Python module of ours, out of the clock's order."""
+        return {k: v for k, v in self.env.items() if k != "KERF_CLOCK"} | {"PYTHONPATH": str(self.tree.python)}
+
+    def close_splash(self):
+        if self.splash and self.splash.poll() is None:
+            self.splash.terminate()
+            self.splash.wait()
+
     def load_hal(self):
         if self.ini.get("HAL", "TWOPASS"):
             script = self.tree.tcl / "twopass.tcl"
             status = self.run("haltcl", "-i", self.ini_path, str(script))
+            self.hal_failed |= status != 0
             if status and not self.options.keep_going:
                 raise Failure(f"{self.ini_path}: [HAL]TWOPASS failed: see the messages above")
         else:
@@ -357,7 +388,9 @@ class Session:
                     break
                 self.load_hal_file(entry)
         for line in self.ini.all("HAL", "HALCMD"):
-            if self.run(*self.halcmd, *shlex.split(line, posix=False)) and not self.options.keep_going:
+            failed = self.run(*self.halcmd, *shlex.split(line, posix=False)) != 0
+            self.hal_failed |= failed
+            if failed and not self.options.keep_going:
                 raise Failure(f"INI file HAL command {line} failed.")
 
     def find_hal_file(self, name):
@@ -386,6 +419,7 @@ class Session:
             status = self.run("haltcl", "-i", self.ini_path, path, *words[1:])
         else:
             status = self.run(*self.halcmd, "-i", self.ini_path, "-f", path)
+        self.hal_failed |= status != 0
         if status and not self.options.keep_going:
             raise Failure(f"{path}: failed (see the message above); it stands in {self.ini_path} as "
                           f"[HAL]HALFILE = {entry}")
@@ -486,6 +520,7 @@ class Session:
         clock.leave()
         if self.task_died:
             self.try_run("kerf-safe-stop", "-ini", self.ini_path)
+        self.close_splash()
         print("Shutting down and cleaning up LinuxCNC...", flush=True)
         if self.display and self.display.poll() is None:
             end([self.display.pid])
@@ -576,6 +611,10 @@ class Logs:
                 texts.append(target)
             with open(self.files["debug"]) as f:
                 os.write(terminal, f.read()[-4000:].encode())
+            if os.environ.get("DISPLAY"):
+                subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "errors", *texts], stdin=subprocess.DEVNULL,
+                                 env=dict(os.environ, PYTHONPATH=str(Tree.find().python)), stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL, start_new_session=True)
             os.write(terminal, (
                 "LinuxCNC terminated with an error.  You can find more information in the log:\n"
                 f"    {texts[1]}\nand\n    {texts[0]}\n"

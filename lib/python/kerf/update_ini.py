@@ -7,6 +7,7 @@ copied to a backup folder first. Rules: INI reference, section 9.
 """
 
 import getopt
+import math
 import os
 import re
 import shutil
@@ -75,6 +76,21 @@ def rename_spindle_pins(text):
     return text
 
 
+def unit_words(lines):
+    """[TRAJ] lines with words instead of numbers: units per mm, units per degree."""
+    known = {"LINEAR_UNITS": (("mm", 1.0), ("inch", 1 / 25.4)),
+             "ANGULAR_UNITS": (("degree", 1.0), ("grad", 10 / 9), ("grad", 0.9), ("radian", math.pi / 180))}
+    changed = []
+    for line in lines:
+        m = re.match(r"(\s*(LINEAR_UNITS|ANGULAR_UNITS)\s*=\s*)([\d.eE+-]+)\s*$", line)
+        try:
+            near = [w for w, v in known[m[2]] if abs(float(m[3]) / v - 1) < 1e-3] if m else []
+        except ValueError:
+            near = []
+        changed.append(m[1] + near[0] if near else line)
+    return changed
+
+
 class OldConfig:
     """A configuration of before 1.0, where [AXIS_n] meant both axis and joint."""
 
@@ -127,6 +143,7 @@ class OldConfig:
             fastest = max((float(v) for n in self.numbers
                            for v in values(self.sections.get(f"AXIS_{n}"), "MAX_VELOCITY")), default=1.0)
             lines.append(f"MAX_LINEAR_VELOCITY = {fastest:g}")
+        lines = unit_words(lines)
         return [f"COORDINATES = {' '.join(self.letters)}"] + lines
 
     def joint(self, number):

@@ -1,0 +1,384 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every setting that our programs read: section, name, type, and whether it may repeat.
+
+Types:
+  text            anything
+  words A|B       one of these, in any case
+  bool            TRUE YES ON 1 / FALSE NO OFF 0
+  int LOW HIGH    whole number in the range
+  real LOW HIGH   number in the range, decimal point, no unit behind it
+  file, dir, dirs a path (dirs: separated by colons), from the folder of the INI file
+A `*` behind the name: the setting may stand several times, and every one counts (a list).
+A `+` behind the name: our programs do not read it; HAL files do, by custom.
+Units are machine units (mm or inch, degree), seconds, rpm for spindles, ns for thread periods.
+"""
+
+FAR = 1e300
+
+TABLE = """
+[EMC]
+VERSION text
+MACHINE text
+DEBUG text
+RCS_DEBUG text
+RCS_DEBUG_DEST words NULL|STDOUT|STDERR|FILE|LOGGER|MSGBOX
+RCS_MAX_ERR int -1 2147483647
+NML_FILE file
+RS274NGC_STARTUP_CODE text
+
+[DISPLAY]
+DISPLAY text
+PROGRAM_PREFIX dir
+INTRO_GRAPHIC text
+INTRO_TIME real 0 3600
+MAX_FEED_OVERRIDE real 0 100
+MIN_SPINDLE_OVERRIDE real 0 100
+MAX_SPINDLE_OVERRIDE real 0 100
+LINEAR_UNITS words AUTO|INCH|MM|CM
+ANGULAR_UNITS words AUTO|DEG|RAD|GRAD
+POSITION_OFFSET words RELATIVE|MACHINE
+POSITION_FEEDBACK words COMMANDED|ACTUAL
+CYCLE_TIME real 0 100000
+GRAPHICS_CYCLE_TIME real 0 100000
+HALPIN_CYCLE_TIME real 0 100000
+GEOMETRY text
+LATHE bool
+BACK_TOOL_LATHE bool
+FOAM bool
+LATHE_WEAR_OFFSETS bool
+FOAM_W real
+FOAM_Z real
+DRO_FORMAT_IN text
+DRO_FORMAT_MM text
+CONE_BASESIZE real 0.025 2
+DISABLE_CONE_SCALING bool
+GCODE_VIEW_TOOL_MIN_DIA real
+GRAPHICAL_MAX_FILE_SIZE real
+ARCDIVISION int 1 100000
+POSITION_UNITS text
+MAX_LINEAR_VELOCITY real 0
+DEFAULT_LINEAR_VELOCITY real 0
+MIN_LINEAR_VELOCITY real 0
+MAX_ANGULAR_VELOCITY real 0
+DEFAULT_ANGULAR_VELOCITY real 0
+MIN_ANGULAR_VELOCITY real 0
+MIN_VELOCITY real 0
+INCREMENTS text
+ANGULAR_INCREMENTS text
+GRIDS text
+JOG_AXES text
+JOG_INVERT text
+DEFAULT_SPINDLE_SPEED real
+MIN_SPINDLE_SPEED real
+MAX_SPINDLE_SPEED real
+SPINDLE_INCREMENT real
+MAX_SPINDLE_POWER real
+OPEN_FILE text
+EDITOR text
+TOOL_EDITOR text
+PYVCP file
+PYVCP_POSITION text
+GLADEVCP text
+EMBED_TAB_NAME* text
+EMBED_TAB_COMMAND* text
+EMBED_TAB_LOCATION* text
+USER_COMMAND_FILE file
+USER_CSS_FILE file
+MDI_HISTORY_FILE text
+LOG_FILE text
+MACHINE_LOG_PATH text
+PREFERENCE_FILE_PATH text
+MESSAGE_TEXT* text
+MESSAGE_TYPE* text
+MESSAGE_PINNAME* text
+MESSAGE_BOLDTEXT* text
+MESSAGE_DETAILS* text
+MESSAGE_ICON* text
+MULTIMESSAGE_ID* text
+HOMING_PROMPT bool
+PREVIEW_TIMEOUT real 0
+TKPKG* text
+TKAPP* text
+NGCGUI_SUBFILE* text
+NGCGUI_PREAMBLE text
+NGCGUI_POSTAMBLE text
+NGCGUI_FONT text
+NGCGUI_OPTIONS text
+NGCGUI_SUBFILE_PATH dirs
+GCMC_INCLUDE_PATH text
+TTT text
+TTT_PREAMBLE text
+TITLE text
+ICON text
+MAX_DISPLAYED_ERRORS int 0 100000
+DISABLE_REPEAT_KEYS text
+NO_MULTIPLE_DOT_FILENAME text
+MACRO* text
+GLADEFILE text
+MDRO_VAR_FILE text
+POINT_SIZE real
+MM bool
+HELP_FILE text
+BALLOON_HELP text
+POSITION_FONT text
+
+[FILTER]
+PROGRAM_EXTENSION* text
+
+[RS274NGC]
+PARAMETER_FILE text
+RS274NGC_STARTUP_CODE text
+SUBROUTINE_PATH dirs
+USER_M_PATH dirs
+G64_DEFAULT_TOLERANCE real 0
+G64_DEFAULT_NAIVETOLERANCE real 0
+CENTER_ARC_RADIUS_TOLERANCE_INCH real 0.00004 0.0028285
+CENTER_ARC_RADIUS_TOLERANCE_MM real 0.001 0.028285
+INI_VARS bool
+HAL_PIN_VARS bool
+RETAIN_G43 bool
+OWORD_NARGS bool
+NO_DOWNCASE_OWORD bool
+OWORD_WARNONLY bool
+DISABLE_G92_PERSISTENCE bool
+DISABLE_AUTO_G54 bool
+DISABLE_FANUC_STYLE_SUB bool
+CYCLES_BOTH_WAYS bool
+G73_PECK_CLEARANCE real 0
+G83_PECK_CLEARANCE real 0
+ORIENT_OFFSET real
+LOG_LEVEL int 0 1000000
+LOG_FILE text
+ON_ABORT_COMMAND text
+REMAP* text
+
+[PYTHON]
+TOPLEVEL file
+PATH_PREPEND* dir
+PATH_APPEND* dir
+RELOAD_ON_CHANGE bool
+LOG_LEVEL int 0 9
+
+[WIZARD]
+WIZARD_ROOT dir
+
+[EMCMOT]
+EMCMOT text
+HOMEMOD text
+BASE_PERIOD int 0 9223372036854775807
+SERVO_PERIOD int 0 9223372036854775807
+TRAJ_PERIOD+ int 0 9223372036854775807
+COMM_TIMEOUT real 0
+SHMEM_KEY int 0 4294967295
+
+[TASK]
+TASK text
+CYCLE_TIME real
+INTERP_MAX_LEN int 1 2147483647
+MDI_QUEUED_COMMANDS int 1 2147483647
+IO_ERROR text
+INTERPRETER text
+RUN_FROM_LINE text
+
+[HAL]
+HALFILE* text
+HALCMD* text
+SHUTDOWN file
+POSTGUI_HALFILE* text
+POSTGUI_HALCMD* text
+TWOPASS text
+HALUI text
+HALBRIDGE text
+
+[HALUI]
+MDI_COMMAND* text
+
+[APPLICATIONS]
+DELAY real 0 100000
+APP* text
+
+[TRAJ]
+COORDINATES text
+LINEAR_UNITS words mm|metric|in|inch|imperial
+ANGULAR_UNITS words deg|degree|grad|gon|rad|radian
+SPINDLES int 0 8
+DEFAULT_LINEAR_VELOCITY real 0
+MAX_LINEAR_VELOCITY real 0
+DEFAULT_LINEAR_ACCELERATION real 0
+MAX_LINEAR_ACCELERATION real 0
+MAX_LINEAR_JERK real 0
+PLANNER_TYPE int 0 1
+SMOOTH_PLANNER int 0 1
+SCURVE_PEAK_SCALE real
+ARC_BLEND_ENABLE bool
+ARC_BLEND_FALLBACK_ENABLE bool
+ARC_BLEND_OPTIMIZATION_DEPTH int 0 1000000
+ARC_BLEND_GAP_CYCLES int 0 1000000
+ARC_BLEND_RAMP_FREQ real 0
+ARC_BLEND_KINK_RATIO real 0
+POSITION_FILE text
+NO_FORCE_HOMING bool
+HOME text
+TPMOD text
+NO_PROBE_JOG_ERROR bool
+NO_PROBE_HOME_ERROR bool
+MAX_ANGULAR_VELOCITY real 0
+DEFAULT_ANGULAR_VELOCITY real 0
+
+[KINS]
+JOINTS int 0 16
+KINEMATICS text
+COORDINATES+ text
+
+[AXIS_*]
+TYPE words LINEAR|ANGULAR
+MAX_VELOCITY real 0
+MAX_ACCELERATION real 0
+MAX_JERK real 0
+MIN_LIMIT real
+MAX_LIMIT real
+WRAPPED_ROTARY bool
+LOCKING_INDEXER_JOINT int -1 15
+OFFSET_AV_RATIO real 0 0.9
+HOME+ text
+UNITS+ text
+SCALE+ text
+TOUCHOFF_ACTUAL text
+
+[JOINT_*]
+TYPE words LINEAR|ANGULAR
+UNITS+ text
+MAX_VELOCITY real 0
+MAX_ACCELERATION real 0
+MAX_JERK real 0
+BACKLASH real 0
+COMP_FILE file
+COMP_FILE_TYPE int 0 1
+MIN_LIMIT real
+MAX_LIMIT real
+FERROR real 0
+MIN_FERROR real 0
+HOME real
+HOME_OFFSET real
+HOME_SEARCH_VEL real
+HOME_LATCH_VEL real
+HOME_FINAL_VEL real
+HOME_USE_INDEX bool
+HOME_INDEX_NO_ENCODER_RESET bool
+HOME_IGNORE_LIMITS bool
+HOME_IS_SHARED bool
+VOLATILE_HOME bool
+LOCKING_INDEXER bool
+HOME_ABSOLUTE_ENCODER int 0 2
+HOME_SEQUENCE int -1000 1000
+P+ real
+I+ real
+D+ real
+FF0+ real
+FF1+ real
+FF2+ real
+BIAS+ real
+DEADBAND+ real
+MAX_OUTPUT+ real
+OUTPUT_SCALE+ real
+OUTPUT_OFFSET+ real
+INPUT_SCALE+ text
+ENCODER_SCALE+ real
+STEP_SCALE+ real
+SCALE+ real
+STEPGEN_MAXACCEL+ real
+STEPGEN_MAXVEL+ real
+STEPLEN+ real
+STEPSPACE+ real
+DIRSETUP+ real
+DIRHOLD+ real
+PGAIN+ real
+IGAIN+ real
+DGAIN+ real
+DRIVE_RATIO+ real
+MOTOR_PPR+ real
+MIN_HARD_LIMIT+ real
+MIN_HARD_LIMIT_RELEASE+ real
+MAX_HARD_LIMIT+ real
+MAX_HARD_LIMIT_RELEASE+ real
+HOME_SW_MIN+ real
+HOME_SW_MAX+ real
+
+[SPINDLE_*]
+MAX_FORWARD_VELOCITY real
+MIN_FORWARD_VELOCITY real
+MAX_REVERSE_VELOCITY real
+MIN_REVERSE_VELOCITY real
+INCREMENT real
+HOME_SEARCH_VELOCITY real
+HOME_SEQUENCE int -1000 1000
+HOME+ real
+P+ real
+I+ real
+D+ real
+FF0+ real
+FF1+ real
+FF2+ real
+BIAS+ real
+DEADBAND+ real
+MAX_OUTPUT+ real
+OUTPUT_SCALE+ real
+ENCODER_SCALE+ real
+
+[EMCIO]
+TOOL_TABLE text
+DB_PROGRAM text
+TOOL_CHANGE_POSITION text
+TOOL_CHANGE_WITH_SPINDLE_ON bool
+TOOL_CHANGE_QUILL_UP bool
+TOOL_CHANGE_AT_G30 bool
+RANDOM_TOOLCHANGER bool
+"""
+
+# Sections that belong to one screen, component or driver, or to the user: names in them are not judged.
+OPEN_SECTIONS = """MACROS MDI_COMMAND_LIST TOOLSENSOR CHANGE_POSITION VERSA_TOOLSETTER PROBE LASER CAMERA QTPLASMAC PLASMAC
+PLASMA TOUCHY MTCONNECT REDIS XHC_HB04_CONFIG XHC_HB04_BUTTONS XHC-HB04 MOVEOFF MOVEOFF_* HOSTMOT2 HOSTMOT TUNE VFS11 VFDB
+LINUXCNC MOT EMCSERVER FILTER DISPLAY_* PROBE_* SENSOR WORKPIECE TOOL_CHANGE MODBUS DIALOGS HALUI_*""".split()
+
+# Names that were read once: what to write instead.
+OLD = {
+    ("TRAJ", "AXES"): "[KINS]JOINTS", ("TRAJ", "JOINTS"): "[KINS]JOINTS",
+    ("TRAJ", "MAX_VELOCITY"): "MAX_LINEAR_VELOCITY", ("TRAJ", "DEFAULT_VELOCITY"): "DEFAULT_LINEAR_VELOCITY",
+    ("TRAJ", "MAX_ACCELERATION"): "MAX_LINEAR_ACCELERATION",
+    ("TRAJ", "DEFAULT_ACCELERATION"): "DEFAULT_LINEAR_ACCELERATION",
+    ("TRAJ", "CYCLE_TIME"): "", ("RS274NGC", "FEATURES"): "INI_VARS, HAL_PIN_VARS, RETAIN_G43 and others",
+    ("RS274NGC", "OWORD_WARN_ONLY"): "OWORD_WARNONLY",
+    ("EMCIO", "EMCIO"): "", ("EMCIO", "CYCLE_TIME"): "", ("EMCSERVER", "EMCSERVER"): "", ("EMCMOT", "COMM_WAIT"): "",
+    ("TOUCHY", "MACRO"): "[MACROS]MACRO",
+}
+
+
+class Setting:
+    """One row of the table."""
+
+    def __init__(self, line):
+        name, kind, *rest = line.split()
+        self.name = name.rstrip("*+")
+        self.is_list, self.is_read = "*" in name, "+" not in name
+        self.kind = kind
+        self.words = rest[0].split("|") if kind == "words" else []
+        self.low, self.high = -FAR, FAR
+        if kind in ("int", "real"):
+            number = int if kind == "int" else float
+            self.low = number(rest[0]) if rest else -FAR
+            self.high = number(rest[1]) if len(rest) > 1 else FAR
+
+
+def read_table():
+    """{section pattern: {name: Setting}}"""
+    found, section = {}, None
+    for line in TABLE.split("\n"):
+        if line.startswith("["):
+            section = found.setdefault(line.strip("[]"), {})
+        elif line.strip():
+            setting = Setting(line)
+            section[setting.name] = setting
+    return found
+
+
+SCHEMA = read_table()

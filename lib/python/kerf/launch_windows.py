@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Windows of the launcher: the picture while the machine starts, and what went wrong.
+
+    python3 -m kerf.launch_windows splash PICTURE SECONDS
+    python3 -m kerf.launch_windows errors PRINT_LOG DEBUG_LOG
+"""
+
+import subprocess
+import sys
+import tkinter as tk
+from pathlib import Path
+from tkinter import ttk
+
+REPORT = Path("/tmp/linuxcnc.report")
+
+
+def splash(picture, seconds):
+    """A bare window with the picture in the middle of the screen; a click or the time ends it."""
+    root = tk.Tk()
+    root.overrideredirect(True)
+    image = tk.PhotoImage(file=picture)
+    tk.Label(root, image=image, borderwidth=2, relief="ridge").pack()
+    x, y = (root.winfo_screenwidth() - image.width()) // 2, (root.winfo_screenheight() - image.height()) // 2
+    root.geometry(f"+{max(x, 0)}+{max(y, 0)}")
+    root.bind("<Button>", lambda event: root.destroy())
+    root.after(int(float(seconds) * 1000), root.destroy)
+    root.mainloop()
+
+
+def read(path):
+    try:
+        return Path(path).read_text(errors="replace")
+    except OSError as e:
+        return f"{path}: {e.strerror}\n"
+
+
+def kernel_messages():
+    done = subprocess.run(["dmesg"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    return "\n".join(done.stdout.splitlines()[-200:]) + "\n"
+
+
+class Errors:
+    """Both logs and the kernel's messages, with a button that writes a report to send."""
+
+    def __init__(self, root, print_log, debug_log):
+        self.root = root
+        self.texts = {"What the programs reported": read(debug_log), "Steps of the start": read(print_log),
+                      "Kernel messages": kernel_messages()}
+        root.title("LinuxCNC terminated with an error")
+        root.geometry("820x520")
+        root.minsize(480, 300)
+        ttk.Style(root).theme_use("clam")
+        ttk.Label(root, padding=8, wraplength=780, justify="left",
+                  text="LinuxCNC terminated with an error. The last lines below usually say which program or file, and "
+                       "where in it.").pack(fill="x")
+        buttons = ttk.Frame(root, padding=8)
+        buttons.pack(side="bottom", fill="x")
+        self.state = ttk.Label(buttons)
+        self.state.pack(side="left", fill="x")
+        ttk.Button(buttons, text="Close", command=root.destroy).pack(side="right", padx=(8, 0))
+        ttk.Button(buttons, text="Write report", command=self.report).pack(side="right")
+        book = ttk.Notebook(root)
+        book.pack(fill="both", expand=True, padx=8)
+        for name, text in self.texts.items():
+            book.add(self.page(book, text), text=name)
+        root.bind("<Escape>", lambda event: root.destroy())
+
+    @staticmethod
+    def page(book, text):
+        frame = ttk.Frame(book)
+        bar = ttk.Scrollbar(frame)
+        bar.pack(side="right", fill="y")
+        box = tk.Text(frame, wrap="word", font="TkFixedFont", yscrollcommand=bar.set)
+        box.pack(fill="both", expand=True)
+        bar.configure(command=box.yview)
+        box.insert("end", text or "(nothing)\n")
+        box.see("end")
+        box.configure(state="disabled")
+        return frame
+
+    def report(self):
+        """Everything that helps to find the reason, in one file."""
+        subprocess.run(["linuxcnc_info", "-s"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
+        parts = [f"===== {name}\n{text}" for name, text in self.texts.items()]
+        REPORT.write_text("\n".join(parts) + "\n===== System\n" + read("/tmp/linuxcnc_info.txt"))
+        self.state.configure(text=f"Written: {REPORT}")
+
+
+def main(argv):
+    kind, *arguments = argv
+    if kind == "splash":
+        splash(*arguments)
+    else:
+        root = tk.Tk()
+        Errors(root, *arguments)
+        root.mainloop()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
