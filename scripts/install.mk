@@ -32,6 +32,7 @@ install: all $(INSTALL_HOOKS)
 	$(call copy_tree,nc_files,$(SHARE)/ncfiles)
 	$(call copy_tree,configs,$(DOC)/examples/sample-configs)
 	$(call copy_tree,tcl,$(tcldir))
+	$(INST) src/config.h $(DESTDIR)$(SHARE)
 	[ ! -f src/Makefile.modinc ] || $(INST) src/Makefile.modinc $(DESTDIR)$(SHARE)
 	mkdir -p $(DESTDIR)$(DOC)/examples/templates
 	$(INST) $(TEMPLATES) $(DESTDIR)$(DOC)/examples/templates
