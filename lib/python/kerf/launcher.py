@@ -46,6 +46,7 @@ WATCH_MS = 100          # at most between two looks at the processes
 READY_WAIT_S = 10.0     # for task to publish the first settings
 CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
 SESSION = "LINUXCNC_SESSION"
+HOST_KEYS = (0x48414C32, 0x90280A48, 0x48484C34)     # HAL, RTAPI, UUID
 PR_SET_PDEATHSIG = 1
 
 
@@ -180,8 +181,10 @@ class Session:
         config_dir = os.path.dirname(ini_path)
         self.env["PATH"] = os.pathsep.join([config_dir + "/bin", self.env["PATH"]])
         local_bin = os.path.expanduser("~/.local/bin")
-        if os.path.isdir(local_bin) and local_bin not in self.env["PATH"].split(os.pathsep):
-            self.env["PATH"] += os.pathsep + local_bin
+        folders = self.env["PATH"].split(os.pathsep)
+        if os.path.isdir(local_bin) and local_bin not in folders:
+            own = folders.index(str(tree.bin)) + 1 if str(tree.bin) in folders else 1
+            self.env["PATH"] = os.pathsep.join(folders[:own] + [local_bin] + folders[own:])
         hallib_path = os.pathsep.join(options.hallib_dirs + [".", str(tree.hallib)])
         self.halcmd = ["halcmd"] + (["-k"] if options.keep_going else [])
         self.env.update(CONFIG_DIR=config_dir, HALLIB_PATH=hallib_path, HALCMD=" ".join(self.halcmd))
@@ -529,34 +532,34 @@ class Session:
         host = [p for p in running if comm_of(p).startswith("rtapi_app")]
         if shutdown and host:
             print("Running HAL shutdown script")
-            self.try_run("halcmd", "-f", shutdown)
+            self.try_run("halcmd", "-f", shutdown, quiet=False)
         servers = [p for p in running if comm_of(p) in ("linuxcncsvr", "milltask", "motion-logger",
                                                        getattr(self, "task", "milltask")[:15])]
         end(servers)
         if host:
             self.try_run("halcmd", "stop")
             self.try_run("halcmd", "unload", "all")
-        self.try_run(str(self.tree.realtime), "stop")
+        self.try_run(str(self.tree.realtime), "stop", seconds=10.0)
         for pid in end(list(session_processes(self.id))):
             print(f"Could not kill task {comm_of(pid)}, PID={pid}")
-        self.remove_nml_buffers()
+        self.remove_segments()
         if remove_lock:
             try:
                 os.unlink(self.lock)
             except FileNotFoundError:
                 pass
 
-    def try_run(self, *command, seconds=5.0):
+    def try_run(self, *command, seconds=5.0, quiet=True):
         """Runs a clean-up step; one that hangs is ended."""
+        output = subprocess.DEVNULL if quiet else None
         try:
-            subprocess.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                           stderr=subprocess.DEVNULL, timeout=seconds)
+            subprocess.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=output, stderr=output, timeout=seconds)
         except (subprocess.TimeoutExpired, OSError):
             pass
 
-    def remove_nml_buffers(self):
-        """Removes the shared memory of the NML buffers, tool data and motion block."""
-        keys = {101, 0x64}                     # motion block of a host that was killed
+    def remove_segments(self):
+        """Removes the shared memory of the NML buffers and tool data, and of a host that was killed."""
+        keys = {101, 0x64, *HOST_KEYS}
         try:
             with open(self.env.get("NMLFILE", str(self.tree.nml))) as f:
                 for line in f:
