@@ -3,13 +3,13 @@
 # their environment, search paths of HAL files, applications, logs and the lock.
 export KERF_CLOCK=virtual KERF_INSTANCE=${KERF_INSTANCE:-order}
 top=$(cd ../../.. && pwd)
-rm -rf work; mkdir work; trap 'cd ..; rm -rf work' EXIT
+rm -rf work; mkdir work; home=$(mktemp -d); trap 'cd ..; rm -rf work "$home"' EXIT
 cd work
-export HOME=$PWD/home; mkdir -p home/hal home/.local/bin lib2 bin
+export HOME=$home; mkdir -p lib2 bin; mkdir -p "$home/hal" "$home/.local/bin"; ln -s "$home" home
 unset DISPLAY LINUXCNC_OPENGL_PLATFORM
 cp "$top"/configs/sim/mill/* .
 ini() { sed "$@" "$top/configs/sim/mill/mill.ini" > m.ini; }
-clean() { sed -E "s,$PWD,HERE,g; s,$top,TOP,g; s,\.$KERF_INSTANCE,,g"; }
+clean() { sed -E "s,$home,HOME,g; s,$PWD,HERE,g; s,$top,TOP,g; s,\.$KERF_INSTANCE,,g"; }
 run() { linuxcnc "$@" < /dev/null > out 2>&1; status=$?; grep -v '^Note\|^task:\|warning:' out | clean; echo "status $status"; }
 printf '#!/bin/sh\necho "display $*"; halcmd list thread > threads; exit 5\n' > bin/show; chmod +x bin/show
 
@@ -34,7 +34,7 @@ for v in INI_FILE_NAME CONFIG_DIR LINUXCNC_HOME LINUXCNC_NCFILES_DIR LINUXCNC_TC
     HAL_RTMOD_DIR NMLFILE TRAJ_COORDINATES KINS_KINEMATICS PYOPENGL_PLATFORM GDK_BACKEND QT_QPA_PLATFORM; do
     eval echo $v=\$$v
 done
-echo "$PATH" | tr : '\n' | head -n 4
+echo "$PATH" | tr : "\n" | head -n 1; echo "$PATH" | tr : "\n" | head -n 4 | grep local/bin
 [ -n "$LINUXCNCVERSION" ] && echo "version known"
 pwd; ls /tmp/linuxcnc.lock* > /dev/null && echo "lock there"
 END
@@ -48,7 +48,7 @@ run -r -m nohome m.ini | grep -i "nohome\|status" | head -n 4
 ini 's,^HALFILE = mill.hal,&\nHALCMD = setp no.such 1\nHALFILE = bad.hal,; s,^DISPLAY = axis,DISPLAY = true,'
 printf 'setp no.such.pin 1\nnet x no.such.pin\nloadusr -w echo after\n' > bad.hal
 run -r m.ini; run -r -k m.ini
-run -l; run -; mkdir -p home; printf '[PICKCONFIG]\nLAST_CONFIG = %s/m.ini\n' "$PWD" > home/.linuxcncrc
+run -l; run -; printf '[PICKCONFIG]\nLAST_CONFIG = %s/m.ini\n' "$PWD" > home/.linuxcncrc
 ini 's,^DISPLAY = axis,DISPLAY = true,'
 run -r -l | head -n 1; run -r - | tail -n 1
 run -r -n m.ini
@@ -57,4 +57,4 @@ ini 's,^DISPLAY = axis,DISPLAY = nothing-here,'; run -r m.ini | tail -n 2
 ini 's,^DISPLAY = axis,DISPLAY = true,; s,^HALUI.*,HALUI = nothalui,'; run -r m.ini | tail -n 3
 ini 's,^DISPLAY = axis,DISPLAY = true,; s,^HALFILE = mill.hal,HALFILE = LIB:none.hal,'; run -r m.ini | tail -n 3
 printf '[A\n' > bad.ini; run -r bad.ini; : > empty.ini; run -r empty.ini; run -r none.ini
-ls /tmp/linuxcnc.lock* 2> /dev/null | grep -c "$KERF_INSTANCE"
+ls /tmp/linuxcnc.lock* 2> /dev/null | grep -c "$KERF_INSTANCE" || :
