@@ -23,15 +23,16 @@ def statements(names):
             sys.exit(f"{names.get('NAME', 'vismach')}: {word}: {type(error).__name__}: {error}")
 
 
-def component(name, pins, bits=(), out=()):
-    """The component of a machine: float inputs, bit inputs, float outputs. It is ready."""
+def component(name, pins, bits=(), out=None):
+    """The component of a machine: float inputs, bit inputs, float outputs {pin: value}. It is ready."""
     comp = hal.component(name)
     for pin in pins:
         comp.newpin(pin, hal.HAL_FLOAT, hal.HAL_IN)
     for pin in bits:
         comp.newpin(pin, hal.HAL_BIT, hal.HAL_IN)
-    for pin in out:
+    for pin, value in (out or {}).items():
         comp.newpin(pin, hal.HAL_FLOAT, hal.HAL_OUT)
+        comp[pin] = value
     comp.ready()
     return comp
 

@@ -164,12 +164,23 @@ class View:
         self.frame.window.swap()
 
 
+def wait_without_a_screen():
+    """Keeps the pins of the machine until SIGTERM or SIGINT, so that a configuration starts the same way."""
+    print("vismach: no display: pins without a picture", file=sys.stderr)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: sys.exit(0))
+    while True:
+        signal.pause()
+
+
 def main(model, tool, work, size=10, hud=0, rotation_vectors=None, lat=0, lon=0):
     """Shows a machine until its window is closed, or SIGTERM or SIGINT come.
 
     tool, work: captures; their distance is traced. size: of the machine. hud: a Hud, or anything else for none.
     rotation_vectors is accepted for scripts that give it.
     """
+    if not os.environ.get("DISPLAY"):
+        wait_without_a_screen()
     try:
         root = tk.Tk(className="vismach")
         root.title(os.path.basename(sys.argv[0]) or "vismach")
