@@ -293,6 +293,9 @@ def layout(b: Bench) -> None:
     check("vbox", (first["relief"], first["bd"], first.winfo_children()[0].pack_info()["fill"]), ("raised", 2, "x"))
     lamps = b.all("hbox")[0].winfo_children()[0].pack_info()
     check("hbox", (lamps["side"], lamps["fill"], lamps["anchor"]), ("left", "y", "n"))
+    later = b.all("label")[0].pack_info()
+    check("boxfill, boxexpand, boxanchor", (later["fill"], later["expand"], later["anchor"]), ("none", 0, "w"))
+    check("axisoptions", str(b.all("label")[0]["padx"]), "0")
     inner = b.all("include")[0]
     check("include", [type(w).__name__ for w in inner.winfo_children()], ["Led", "Vbox"])
 

@@ -155,13 +155,26 @@ def shapes(b: Bench) -> None:
     check("volume of a group", group.volume(), 3)
     group.set_volume(7)
     check("set_volume", group.volume(), 7)
-    for words, part in (((1, 2, 3), "were given"), (("x", 0, 0, 1, 1, 1), "names of pins need the component")):
+    for words, part in (((), "were given"), ((1, 2, 3), "were given"), (("x", 0, 0, 1, 1, 1), "names of pins need the component")):
         try:
             v.Box(*words)
             mistakes.append(f"Box{words} accepted")
         except TypeError as error:
             if part not in str(error):
                 mistakes.append(str(error))
+    class Tool(v.CylinderZ):
+        """As scripts of users have it."""
+
+        def __init__(self, comp, *args):
+            v.CylinderZ.__init__(self, *args)
+            self.comp = comp
+
+        def coords(self):
+            return -self.comp["x"], 0, 0, self.comp["y"]
+    own = Tool(c)
+    b.draw(own)
+    check("coords() of a subclass", (own.made[0].min(axis=0).round(6).tolist(), own.made[0].max(axis=0).round(6).tolist()),
+          ([-.5, -.5, -2], [.5, .5, 0]))
     # a red box in the middle hides what is behind, and moves with its pin
     c["x"] = 0.0
     red = v.HalTranslate([v.Color((1, 0, 0, 1), [v.BoxCentered(4, 4, 4)])], c, "x", 1, 0, 0)
