@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The AXIS screen: start-up in the documented order, modes, offsets, overrides."""
 
+import getopt
 import gettext
 import os
 import sys
@@ -47,6 +48,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         root.report_callback_exception = self.callback_failed
         self.settings = read(self.ini)
         self.settings.ini_path = ini_path
+        nml = self.ini.find("EMC", "NML_FILE")
+        if nml:
+            linuxcnc.nmlfile = os.path.join(os.path.dirname(ini_path), nml)
         self.stat, self.command = linuxcnc.stat(), linuxcnc.command()
         self.errors = linuxcnc.error_channel()
         self.wait_for_status()
@@ -545,9 +549,12 @@ def main(argv):
     if len(argv) < 2 or argv[0] != "-ini":
         print("-ini must be first argument")
         return 1
-    ini_path, rest = os.path.abspath(argv[1]), [a for a in argv[2:]]
-    if rest[:1] == ["-d"]:
-        rest = rest[2:]
+    ini_path = os.path.abspath(argv[1])
+    try:
+        rest = getopt.getopt(argv[2:], "d:")[1]
+    except getopt.GetoptError as e:
+        print(f"axis: {e}")
+        return 1
     if not os.environ.get("DISPLAY"):
         print("axis: no display (DISPLAY is not set)")
         return 1

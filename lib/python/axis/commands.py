@@ -83,6 +83,10 @@ def make(app):
             app.open_file_guts(str(path))
             app.preview.set_view(app.preview.camera.view or "p")
 
+        def open_pipe(command):
+            if not app.running():
+                app.open_pipe(str(command))
+
         def reload_file(*args):
             if not app.running():
                 app.reload_file(str(args[0]) != "0" if args and str(args[0]) in ("0", "1") else True)

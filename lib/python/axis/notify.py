@@ -11,8 +11,8 @@ COLOURS = {"error": ("#7a1f1f", "#ffffff", "⛔"), "info": ("#1f4a7a", "#ffffff"
 class Notifications:
     """add(kind, text) with kind "error" or "info"; on_change(any error shown) is told."""
 
-    def __init__(self, root, on_change=lambda error: None):
-        self.root, self.on_change = root, on_change
+    def __init__(self, root, on_change=lambda error: None, wrap=WRAP_PX):
+        self.root, self.on_change, self.wrap = root, on_change, wrap
         self.frame = tk.Frame(root)
         self.shown = []          # (kind, widget), oldest first
 
@@ -21,7 +21,7 @@ class Notifications:
         back, fore, sign = COLOURS[kind]
         box = tk.Frame(self.frame, background=back, padx=8, pady=6, highlightthickness=1, highlightbackground="#ffffff")
         tk.Label(box, text=sign, background=back, foreground=fore).pack(side="left", anchor="n")
-        tk.Label(box, text=text, background=back, foreground=fore, wraplength=WRAP_PX, justify="left").pack(side="left", padx=6)
+        tk.Label(box, text=text, background=back, foreground=fore, wraplength=self.wrap, justify="left").pack(side="left", padx=6)
         tk.Button(box, text="✕", background=back, foreground=fore, relief="flat", takefocus=False, padx=2, pady=0,
                   command=lambda: self.remove(box)).pack(side="right", anchor="n")
         box.pack(side="bottom", fill="x", pady=2)

@@ -2,6 +2,7 @@
 """Opening and starting programs: the dialogs, the text, the progress bar."""
 
 import os
+import subprocess
 import time
 
 import linuxcnc
@@ -55,6 +56,16 @@ class OpeningPart:
         finally:
             self.end_progress()
             self.root.tk.call("set_mode_from_tab")
+
+    def open_pipe(self, command):
+        """Opens what a shell command writes to its standard output."""
+        path = os.path.join(self.loader.folder, "pipe.ngc")
+        with open(path, "wb") as out:
+            status = subprocess.run(["sh", "-c", command], stdin=subprocess.DEVNULL, stdout=out).returncode
+        if status:
+            self.notifications.add("error", f"{command}: {self.translate('ended with status %d') % status}")
+        else:
+            self.open_file_guts(path, addrecent=False)
 
     def load_shown(self):
         """Task, text and preview take the same program; a change on disk meanwhile is told."""

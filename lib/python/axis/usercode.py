@@ -48,7 +48,7 @@ class UserPart:
                      loaded_file=self.loaded_file, current_tool=None, set_feedrate=lambda n: self.set_override("feedrate", int(n)),
                      set_rapidrate=lambda n: self.set_override("rapidrate", int(n)), get_jog_speed=self.get_jog_speed,
                      jog_on=self.jog_on, jog_off=self.jog_off, running=self.running, manual_ok=self.manual_ok,
-                     ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, all_homed=self.all_homed, go_home=self.go_home,
+                     ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, prompt_touchoff=self.prompt_touchoff, all_homed=self.all_homed, go_home=self.go_home,
                      set_motion_teleop=self.set_motion_teleop, activate_ja_widget=self.activate_ja_widget,
                      open_file_guts=self.open_file_guts, reload_file=self.reload_file, rClicker=lambda event: None,
                      user_live_update=lambda: None, user_hal_pins=lambda: None, tabs_mdi=".pane.top.tabs.fmdi",
@@ -75,6 +75,13 @@ class UserPart:
         dialog = dialogs.Touchoff(self.root, title, text, default, unit, Checker(self.settings, os.path.join(self.loader.folder, "prompt.var")))
         answer = dialog.wait(dialog.entry)
         return (float(dialog.check(answer[0])[0]), None) if answer else (None, None)
+
+    def prompt_touchoff(self, title, text, default, tool_only=False, system=None):
+        """(text as typed, system) or (None, None) when cancelled."""
+        checker = Checker(self.settings, os.path.join(self.loader.folder, "prompt.var"))
+        dialog = dialogs.Touchoff(self.root, title, text, default, "", checker, None if tool_only else system or self.vars.touch_off_system.get(),
+                                  translate=self.translate)
+        return dialog.wait(dialog.entry) or (None, None)
 
     def nf_dialog(self, path, title, text, icon, default, *buttons):
         extra = None

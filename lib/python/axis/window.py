@@ -15,7 +15,7 @@ from .dro import Readout
 from .jog import Jogger, position, speed
 from .keys import Keys
 from .looks import SCALES, LooksPart
-from .notify import Notifications
+from .notify import WRAP_PX, Notifications
 from .preview import Preview
 from .settings import LETTERS, MM_PER_INCH, N_, parse_increment
 from .variables import Options
@@ -64,6 +64,8 @@ class WindowPart(LooksPart):
         for name, value in CONSTANTS.items():
             tcl.setvar(name, value)
         tcl.setvar("version", tree.version())
+        for name, path in (("manual", "tabs.fmanual"), ("mdi", "tabs.fmdi"), ("preview", "right.fpreview"), ("numbers", "right.fnumbers")):
+            tcl.setvar(f"_tabs_{name}", f".pane.top.{path}")
         tcl.setvar("::axis::tcl_dir", str(tree.tcl))
         tcl.createcommand("_", self.translate)
         tcl.createcommand("::axis::icon", self.icons.get)
@@ -83,7 +85,7 @@ class WindowPart(LooksPart):
             setattr(self.widgets, name, root.nametowidget(path) if path in root.children or self.known(path) else self.wrap(path))
         self.text = self.widgets.text
         self.code = CodeView(self.text, self.wrap(".pane.bottom.t.sb"))
-        self.notifications = Notifications(root, self.errors_shown)
+        self.notifications = Notifications(root, self.errors_shown, self.style.px(WRAP_PX))
         self.jogger = Jogger(self)
         self.restore()
         self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *PLOT, s.geometry, s.foam)
