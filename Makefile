@@ -4,6 +4,7 @@
 #
 #   make            everything, run in place: bin/ lib/ rtlib/ include/
 #   make sanitize   the same with ASan and UBSan, into sanitize/
+#   make screenshots pictures of the screens into docs/images
 #   make bench      measurements (never part of the tests)
 #   make fuzz       libFuzzer programs, into objects/fuzz (needs clang)
 #   make install DESTDIR=...    the documented installed layout
@@ -125,7 +126,9 @@ $(T)/include/$(notdir $(1)): $(1)
 endef
 $(foreach h,$(PUBLIC_HEADERS),$(eval $(call public_header,$(h))))
 
-.PHONY: all headers programs modules clean distclean sanitize bench install
+.PHONY: all headers programs modules clean distclean sanitize bench install screenshots
+screenshots: all
+	scripts/screenshots
 headers: $(PUBLIC) src/config.h
 all: headers $(LIBRARIES) $(PROGRAMS) $(SCRIPTS) $(RTMODULES) $(PYMODULES) $(EXTRA_TARGETS)
 

@@ -47,7 +47,7 @@ def ask(root, title, text, icon, default, *buttons, extra=None, escape=None, nam
     """Index of the button that was pressed; `extra`: a long text below the question."""
     modal = Modal(root, title, name)
     w = modal.window
-    sign = {"error": "⛔", "warning": "⚠", "info": "ℹ", "question": "?"}.get(icon, "")
+    sign = {"error": "✖", "warning": "⚠", "info": "ℹ", "question": "?"}.get(icon, "")
     top = tk.Frame(w)
     top.pack(fill="x")
     tk.Label(top, text=sign, font=("DejaVu Sans", 24)).pack(side="left", padx=(0, 12))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The preview with OpenGL: a widget of kerf.gl, drawn by kerf.glpath."""
 
+import time
+
 from kerf import gl
 from kerf.glpath import Renderer
 
@@ -8,6 +10,7 @@ from kerf.glpath import Renderer
 class GLPicture(gl.Frame):
     """Shows scenes (kerf.glpath.Scene). Making it raises RuntimeError or ImportError where OpenGL does not work."""
     kind = "OpenGL"
+    began = None             # when the still layer was drawn that is not yet seen
 
     def __init__(self, parent):
         super().__init__(parent, borderwidth=0, highlightthickness=0, background="", width=300, height=200)
@@ -27,6 +30,7 @@ class GLPicture(gl.Frame):
         self.window.make_current()
         if self.renderer.resize(width, height):
             self.window.resize(width, height)
+        self.began = time.monotonic()
         self.renderer.draw_still(scene, matrix, label_size)
 
     def step(self):
@@ -40,6 +44,9 @@ class GLPicture(gl.Frame):
             return False
         self.renderer.present()
         self.window.swap()
+        if self.began is not None:
+            self.renderer.took(time.monotonic() - self.began)
+            self.began = None
         return True
 
     def exposed(self):

@@ -81,6 +81,10 @@ class LooksPart:
         for name, old in before.items():
             mapping.setdefault(old.lower(), self.colours[name])
         self.recolour(self.root, mapping)
+        for book in (".pane.top.tabs", ".pane.top.right"):
+            for page in self.root.tk.splitlist(self.root.tk.call(book, "pages")):
+                self.root.tk.call(book, "itemconfigure", page, "-background", self.colours["face"], "-foreground", self.colours["ink"],
+                                  "-activebackground", self.colours["pressed"], "-activeforeground", self.colours["ink"])
         self.resize_widgets()
         self.icons.restyle(self.icon_px(), self.style.dark)
         self.text_colours()
@@ -127,6 +131,7 @@ class LooksPart:
 
     def text_colours(self):
         t = self.widgets.text
+        t.configure(inactiveselectbackground=self.colours["select"])
         t.tag_configure("lineno", foreground=self.colours["number"])
         t.tag_configure("executing", background=self.colours["running"], foreground="#ffffff")
         t.tag_configure("sel", background=self.colours["select"], foreground="#ffffff")

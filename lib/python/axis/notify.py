@@ -5,7 +5,7 @@ import tkinter as tk
 
 MOST = 11                # the next one removes the oldest
 WRAP_PX = 300
-COLOURS = {"error": ("#7a1f1f", "#ffffff", "⛔"), "info": ("#1f4a7a", "#ffffff", "ℹ")}
+COLOURS = {"error": ("#7a1f1f", "#ffffff", "✖"), "info": ("#1f4a7a", "#ffffff", "ℹ")}
 
 
 class Notifications:

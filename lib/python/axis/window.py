@@ -276,6 +276,7 @@ class WindowPart(LooksPart):
         t.bind("<B1-Motion>", lambda e: "break")
         t.bind("<Button-4>", lambda e: t.yview_scroll(-2, "units") or "break")
         t.bind("<Button-5>", lambda e: t.yview_scroll(2, "units") or "break")
+        self.widgets.numbers_text.bind("<Configure>", lambda e: self.widget_signs.pop("readout", None))      # digits fill the page
         self.text_menu = tk.Menu(t, tearoff=0)
         self.text_menu.add_command(label=self.translate("Run from here"), command="task_run_line")
         t.bind("<Button-3>", lambda e: self.vars.highlight_line.get() > 0 and self.text_menu.tk_popup(e.x_root, e.y_root))

@@ -16,7 +16,9 @@ import numpy as np
 
 from .gltext import Glyphs
 
-MOVING_VERTICES = 60000      # of the first, quick drawing
+MOVING_VERTICES = 40000      # of the first, quick drawing; adapted to what the driver does in FRAME_S
+LEAST_VERTICES, MOST_VERTICES = 8000, 400000
+FRAME_S = 1 / 40
 SLICE_VERTICES = 60000      # of one step towards the exact one
 EXACT_PX = 0.7
 PLOT_TAIL = 16               # points at the plot's end that may still change
@@ -109,6 +111,7 @@ class Renderer:
         self.steps = None            # the exact drawing that is going on
         self.plotted = 0
         self.exact = True
+        self.budget = MOVING_VERTICES
 
     # -- building blocks -------------------------------------------------------------------
 
@@ -393,11 +396,18 @@ class Renderer:
         self.steps = None
         self.plotted = 0
         last = None
-        for last in self.still_steps("still", scene, matrix, 0 if exact else MOVING_VERTICES, label_size):
+        for last in self.still_steps("still", scene, matrix, 0 if exact else self.budget, label_size):
             pass
         self.exact = bool(last)
         if not self.exact:
             self.steps = self.still_steps("fine", scene, matrix, 0, label_size)
+
+    def took(self, seconds):
+        """Tells how long a quick drawing took until it was seen: the next ones have more or fewer vertices."""
+        if self.exact and seconds < FRAME_S:
+            return                   # nothing was left out: nothing is learned
+        factor = min(1.3, max(0.6, FRAME_S / max(seconds, 1e-4)))
+        self.budget = int(min(MOST_VERTICES, max(LEAST_VERTICES, self.budget * factor)))
 
     def step(self):
         """One slice of the exact still layer. True: it is complete now and the frame should be drawn."""
