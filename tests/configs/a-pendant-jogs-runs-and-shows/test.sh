@@ -2,7 +2,7 @@
 # LIB:xhc-hb04.tcl connects a pendant (its driver is replaced by bin/xhc-hb04) to a machine with X, Y, Z
 # and C; C takes the switch's free position.
 set -e
-rm -rf work; cp -r pendant work; trap 'rm -rf work' EXIT
+here=$PWD; rm -rf work; cp -r pendant work; trap 'rm -rf "$here/work"' EXIT
 cd work
 sed "/^HALUI/a HALFILE = LIB:basic_sim.tcl -no_use_hal_manualtoolchange\nHALFILE = LIB:xhc-hb04.tcl" machine.ini > m.ini
 export KERF_CLOCK=virtual PYTHONPATH=$PWD/../../../task/lib:$PYTHONPATH

@@ -3,7 +3,7 @@
 # then starts, homes and moves. The originals are kept byte for byte, a second conversion changes nothing, and
 # converting the originals again gives the same.
 unset DISPLAY
-rm -rf work; mkdir work; trap 'cd "$OLDPWD" 2>/dev/null; cd ..; rm -rf work' EXIT
+here=$PWD; rm -rf work work.first; mkdir work; trap 'rm -rf "$here/work" "$here/work.first"' EXIT
 cd work
 /usr/bin/python3 ../archive.py
 printf 'G20 G90 G0 X0.2\nG1 F60 X0.4\nG0 X0\nM2\n' > part.ngc
