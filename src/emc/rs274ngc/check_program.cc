@@ -39,6 +39,7 @@ class CheckCanon final : public Canon
     std::function<void()> units_changed; ///< after a move in the other unit
     // Machine limits by axis, machine units.
     double low[AXES], high[AXES];
+    int outside[AXES] = {}; // -1 below, 1 above
     bool have_limits = false;
     std::function<void(int axis, double value, bool below)> beyond;
 
@@ -125,8 +126,10 @@ class CheckCanon final : public Canon
         for (int i = 0; i < AXES; ++i) {
             if (!(mask & (1 << i))) continue;
             const double v = (axis(m, i) + axis(g5x, i) + axis(tool_offset, i)) * (is_linear(i) ? scale : 1);
-            if (v < low[i] - 1e-6) beyond(i, v, true);
-            if (v > high[i] + 1e-6) beyond(i, v, false);
+            // Said where the limit is passed, not again until the axis is back.
+            const int side = v < low[i] - 1e-6 ? -1 : v > high[i] + 1e-6 ? 1 : 0;
+            if (side != 0 && side != outside[i]) beyond(i, v, side < 0);
+            outside[i] = side;
         }
     }
     double feed = 0;
