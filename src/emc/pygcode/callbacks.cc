@@ -307,6 +307,7 @@ void check_abort(const py::object &canon, time_t *last)
     *last = now;
     bool abort;
     try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         abort = py::bool_(canon.attr("check_abort")());
     } catch (py::error_already_set &e) {
         throw AbortException{e};

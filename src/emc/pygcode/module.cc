@@ -87,12 +87,11 @@ std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &pa
             if (i < 9) o.start[i++] = h.cast<double>();
     }
     auto path = std::make_shared<ProgramPath>();
-    std::function<bool(int)> ask;
-    if (!progress.is_none())
-        ask = [&](int line) {
-            py::gil_scoped_acquire gil;
-            return bool(py::bool_(progress(line)));
-        };
+    const std::function<bool(int)> ask = [&](int line) {
+        py::gil_scoped_acquire gil;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set(); // Ctrl-C ends an endless program
+        return !progress.is_none() && bool(py::bool_(progress(line)));
+    };
     {
         py::gil_scoped_release free;
         read_program(*path, file, o, ask);

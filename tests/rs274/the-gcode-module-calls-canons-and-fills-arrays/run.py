@@ -2,6 +2,7 @@
 """gcode.parse with callbacks and batches, gcode.load into arrays: they agree."""
 import math
 import os
+import signal
 import tempfile
 from harness import *
 import gcode
@@ -109,6 +110,18 @@ with tempfile.TemporaryDirectory() as d:
     open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")
     bad = gcode.load(d + "/bad.ngc")
     check(bad.fault["line"] == 2 and bad.fault["column"] == 7 and bad.fault["what"] == "Multiple x words on one line", bad.fault)
+
+    # Ctrl-C ends what does not end by itself.
+    def interrupt(*_):
+        raise KeyboardInterrupt
+    signal.signal(signal.SIGALRM, interrupt)
+    open(d + "/endless.ngc", "w").write("o1 while [1]\n#1=[#1+1]\no1 endwhile\nM2\n")
+    for endless in (lambda: gcode.load(d + "/endless.ngc"), lambda: gcode.parse(d + "/endless.ngc", Canon(d), "", "")):
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        try:
+            check(False, f"an endless program ended: {endless()}")
+        except KeyboardInterrupt:
+            pass
 
     check(gcode.calc_extents([(1, (0,) * 9, (5,) + (0,) * 8, (0, 0, 1))], [(2, (1, 2, 3) + (0,) * 6, (4, 4, 4) + (0,) * 6, 10., (1, 1, 1))]) ==
           ([0, 0, 0], [5, 4, 4], [0, 0, 1], [5, 5, 5]), "extents")
