@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # A sub called by MDI runs in slices: an endless one, with or without motion, is ended by an
-# abort, a long one is not read ahead without bound and runs to its end.
+# abort, a long one is not read ahead without bound and runs to its end. So does a program.
 from pathlib import Path
 
 from mill import *
@@ -24,3 +24,12 @@ mdi("G90 G0 X0")
 print("result", mdi("o<long> call"), "at", xyz())
 mdi("(debug,returned #<_value> level #<_call_level>)")
 print(messages())
+for body in "o1 while [1]\n#1=[#1+1]\no1 endwhile\n", "o1 while [1]\no<moving> call\no1 endwhile\n", "M99\n":
+    program(body + "M2\n")
+    c.auto(AUTO_RUN, 0)
+    need(lambda s: s.interp_state != INTERP_IDLE, "start of the program")
+    sleep(1)
+    print("program runs:", poll().interp_state != INTERP_IDLE)
+    c.abort()
+    idle()
+    print("idle, messages:", messages(), run("G90 G0 X3\nM2\n"), xyz())
