@@ -91,7 +91,7 @@ class Trigger(_Group):
     def __init__(self, master, owner, style):
         super().__init__(master, "Trigger", owner, style)
         for column, (word, name) in enumerate((("Level", "level"), ("Pos", "pos"))):
-            ttk.Label(self, text=word).grid(row=0, column=column)
+            ttk.Label(self, text=word).grid(row=0, column=column, padx=style.px(3))
             scale = self.slider(0, 1, lambda v, name=name: self._set(name, v), orient="vertical", length=style.px(110))
             scale.grid(row=1, column=column, rowspan=5, sticky="ns", padx=style.px(5))
             setattr(self, name, scale)
@@ -130,8 +130,8 @@ class Trigger(_Group):
 class Vertical(_Group):
     def __init__(self, master, owner, style):
         super().__init__(master, "Vertical", owner, style)
-        ttk.Label(self, text="Gain").grid(row=0, column=0)
-        ttk.Label(self, text="Pos").grid(row=0, column=1)
+        ttk.Label(self, text="Gain").grid(row=0, column=0, padx=style.px(3))
+        ttk.Label(self, text="Pos").grid(row=0, column=1, padx=style.px(3))
         self.gain = self.slider(0, 1, self._set_gain, orient="vertical", length=style.px(110))
         self.gain.grid(row=1, column=0, rowspan=4, sticky="ns", padx=style.px(5))
         self.pos = self.slider(0, 1, self._set_pos, orient="vertical", length=style.px(110))
