@@ -1,5 +1,6 @@
 #!/bin/bash
-# `make install DESTDIR=...` gives a tree that works from where it stands: a program runs there.
+# `make install DESTDIR=...` gives a tree that works from where it stands: a program runs there, and so do test
+# folders that others wrote for runtests: HAL, a component of their own, a machine with a script as its display.
 top=$(cd ../../.. && pwd)
 root=$(mktemp -d); trap 'rm -rf "$root"' EXIT
 make -C "$top" -s install DESTDIR="$root" prefix=/usr >&2 || exit 1
@@ -15,3 +16,63 @@ env -i HOME="$HOME" PATH="$root/usr/bin:/usr/bin:/bin" PYTHONPATH="$root/usr/lib
 echo "status $?"
 cat "$root/text" >&2
 grep -o 'none exceeded' "$root/text"
+
+own=$root/own
+mkdir -p "$own"/{hal,component,machine,headers,python}
+printf 'loadrt and2 count=2\nnet x and2.0.out => and2.1.in0\nlist sig\n' > "$own/hal/test.hal"
+printf 'x \n' > "$own/hal/expected"
+cat > "$own/component/test.sh" <<'END'
+#!/bin/bash
+set -e
+${SUDO} halcompile --install mine.comp > log 2>&1
+${REALTIME} start
+halcmd loadrt mine
+halcmd loadrt threads name1=t period1=1000000
+halcmd addf mine.0 t
+halcmd setp mine.0.in 21
+halcmd start
+sleep 0.3
+halcmd getp mine.0.out
+halcmd stop
+halcmd unload all
+${REALTIME} stop
+END
+printf 'component mine;\npin in float in_;\npin out float out;\nfunction _;\nlicense "GPL";\n;;\nFUNCTION(_) { out = 2 * in_; }\n' > "$own/component/mine.comp"
+echo 42 > "$own/component/expected"
+cp "$root"/usr/share/doc/linuxcnc/examples/sample-configs/sim/mill/* "$own/machine/"
+sed -i 's,^DISPLAY = axis,DISPLAY = ./test-ui.py,; s,^PROGRAM_PREFIX.*,PROGRAM_PREFIX = .,' "$own/machine/mill.ini"
+cat > "$own/machine/test-ui.py" <<'END'
+#!/usr/bin/env python3
+import linuxcnc, linuxcnc_util, hal, sys
+h = hal.component("test-ui")
+h.newpin("x", hal.HAL_FLOAT, hal.HAL_IN)
+h.ready()
+hal.connect("test-ui.x", "x-pos")
+c, s, e = linuxcnc.command(), linuxcnc.stat(), linuxcnc.error_channel()
+l = linuxcnc_util.LinuxCNC(command=c, status=s, error=e)
+c.state(linuxcnc.STATE_ESTOP_RESET)
+c.state(linuxcnc.STATE_ON)
+c.home(-1)
+l.wait_for_home([1, 1, 1, 0, 0, 0, 0, 0, 0])
+c.mode(linuxcnc.MODE_MDI)
+c.mdi("G0 X1.5")
+c.wait_complete(30)
+print("x is", round(h["x"], 3))
+sys.exit(0)
+END
+chmod +x "$own/machine/test-ui.py"
+printf 'linuxcnc -r mill.ini | grep "x is"\nexit ${PIPESTATUS[0]}\n' > "$own/machine/test.sh"
+echo "x is 1.5" > "$own/machine/expected"
+cat > "$own/headers/test.sh" <<'END'
+cat > x.c <<END2
+#include "hal.h"
+#include <stdio.h>
+int main(void) { int c = hal_init("xx"); hal_ready(c); printf("%d\n", c > 0); hal_exit(c); return 0; }
+END2
+gcc -DULAPI -o x.bin -I$HEADERS x.c -L$LIBDIR -llinuxcnchal && ${REALTIME} start && ./x.bin; ${REALTIME} stop
+END
+echo 1 > "$own/headers/expected"
+printf 'rs274 -g -v x.var a.ngc | grep -c STRAIGHT_FEED\n' > "$own/python/test.sh"; printf 'G21 G90 F100 G1 X1\nM2\n' > "$own/python/a.ngc"; echo 1 > "$own/python/expected"
+env -i HOME="$HOME" PATH="$root/usr/bin:/usr/bin:/bin" PYTHONPATH="$root/usr/lib/python3/dist-packages" \
+    LD_LIBRARY_PATH="$root/usr/lib" KERF_CLOCK= RUNTESTS_MARK= "$root/usr/bin/runtests" -j 2 --timeout 120 "$own" 2> "$root/errors" | sed "s,$root/,,"
+grep -E 'XFAIL|SHMERR|left running' "$root/errors" | sed "s,$root/,,"
