@@ -100,10 +100,11 @@ class Loader:
                 value %= 360
             codes.append(f"g53 g0 {letter}{value:.8f}")
         for code in stat.gcodes[3:]:
-            if code != -1:
+            if code not in (-1, 200, 210):
                 codes.append(f"G{code / 10:.1f}" + (f" S{stat.settings[2]:.0f}" if code == 960 else ""))
         offset = "".join(f" {c}{stat.tool_offset[LETTERS.index(c)]:.8f}" for c in self.s.axes)
-        codes.append("G43.1" + offset)
+        codes.append("G43.1" + offset)          # machine units, as up to here
+        codes += [f"G{code / 10:.0f}" for code in stat.gcodes if code in (200, 210)]
         codes += [f"M{code}" for code in stat.mcodes[2:] if code != -1]
         return codes
 

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Random programs from random start states (work offset, rotation, G92, tool length, units, plane set by MDI): each vertex of
+# the screen's preview lies on the path that is made, within 1 um, and the preview reaches as far as the path does.
+import math
+import random
+
+import numpy
+
+from axis.program import Loader
+from axis.settings import read
+from mill import *
+
+R = random.Random(134)
+
+
+def number(a, b):
+    return f"{R.uniform(a, b):.3f}"
+
+
+def random_program():
+    lines = ["G21 G90 G94 G61 F600"]
+    for _ in range(12):
+        kind = R.randrange(10)
+        if kind < 4:
+            lines.append(R.choice(("G0", "G1")) + "".join(f" {a}{number(-10, 10)}" for a in "XYZ" if R.random() < 0.7))
+        elif kind < 6:
+            lines.append(f"G17 {R.choice(('G2', 'G3'))} X#5420 Y#5421 Z{number(-5, 5)} I{number(3, 8)} J{number(-3, 3)}")
+        elif kind < 7:
+            plane, words = R.choice((("G18", "X#5420 Z#5422 I{} K{}"), ("G19", "Y#5421 Z#5422 J{} K{}")))
+            lines.append(f"{plane} {R.choice(('G2', 'G3'))} " + words.format(number(3, 8), number(-2, 2)) + "\nG17")
+        elif kind < 8:
+            lines.append(f"G91 G1 X{number(-3, 3)} Y{number(-3, 3)}\nG90")
+        elif kind < 9:
+            lines.append(R.choice((f"G92 X{number(-3, 3)} Y{number(-3, 3)}", "G92.1", f"G10 L2 P1 R{number(-90, 90)}", "G54", "G55", f"G43.1 Z{number(0, 5)}", "G49")))
+        else:
+            lines.append(f"G20 G1 X{number(-0.4, 0.4)} Y{number(-0.4, 0.4)} F24\nG21 F600")
+    return "\n".join(l for l in lines if l not in ("G0", "G1")) + "\nM2\n"
+
+
+def distances(points, path):
+    """Of each point to the polyline."""
+    a, b = path[:-1], path[1:]
+    d = b - a
+    long = numpy.maximum((d * d).sum(1), 1e-18)
+    for p in points:
+        t = numpy.clip(((p - a) * d).sum(1) / long, 0, 1)
+        yield math.sqrt((((a + t[:, None] * d) - p) ** 2).sum(1).min())
+
+
+on()
+settings = read(linuxcnc.ini("mill.ini"))
+settings.ini_path = str(Path("mill.ini").resolve())
+loader = Loader(settings)
+for n in range(2):
+    for line in ("G90 G21 G17 G49 G92.1", "G10 L2 P1 X0 Y0 Z0 R0", "G54 G53 G0 X0 Y0 Z0"):
+        mdi(line)
+    for line in (f"G10 L2 P1 X{number(-20, 20)} Y{number(-20, 20)} Z-20 R{number(-180, 180)}", f"G10 L2 P2 X{number(-20, 20)} Y5 Z-30 R{number(0, 45)}", R.choice(("G54", "G55")),
+                 R.choice(("G92 X1 Y2 Z3", "G92.1")), R.choice(("G43.1 Z7.5", "G49")), f"G53 G0 X{number(0, 9)} Y{number(0, 9)} Z-25", R.choice(("G20", "G21")), R.choice(("G18", "G17"))):
+        mdi(line)
+    program(random_program(), f"p{n}.ngc")
+    mode(MODE_MANUAL)
+    c.task_plan_synch()
+    c.wait_complete()
+    preview = loader.preview(str(Path(f"p{n}.ngc").resolve()), poll())
+    mode(MODE_AUTO)
+    offset = numpy.array(poll().tool_offset[:3])
+    made = [numpy.array(s.position[:3]) - offset]
+    c.auto(AUTO_RUN, 0)
+    while poll().interp_state != INTERP_IDLE or s.queue:
+        made.append(numpy.array(s.position[:3]) - numpy.array(s.tool_offset[:3]))
+        sleep(0.001 if s.current_vel < 7 else 0.002)  # corners are met exactly
+    made.append(numpy.array(poll().position[:3]) - numpy.array(s.tool_offset[:3]))
+    made = numpy.array(made)
+    shown = numpy.asarray(preview.positions)[:, :3].astype(float) * 25.4
+    worst = max(distances(shown, made))
+    reach = max(abs(made.max(0) - shown.max(0)).max(), abs(made.min(0) - shown.min(0)).max())
+    print(n, preview.error, messages(), "vertices", len(shown) > 20, "on the path" if worst < 1e-3 else f"OFF by {worst:.6f}", "same extent" if reach < 0.05 else f"EXTENT differs by {reach:.4f}")
+loader.close()
