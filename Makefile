@@ -148,11 +148,6 @@ sanitize-links:
 	@ln -sfn ../../lib/hallib sanitize/lib/hallib
 	@mkdir -p sanitize/lib/python && for f in lib/python/*; do case $$f in *.so) ;; *) ln -sfn ../../../$$f sanitize/$$f;; esac; done
 
-# Pictures of the windows on three screens, in docs/images.
-.PHONY: screenshots
-screenshots: all
-	bash -c '. scripts/rip-environment && exec scripts/screenshots'
-
 bench: all $(BENCHES)
 
 include scripts/install.mk
