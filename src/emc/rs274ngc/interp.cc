@@ -376,9 +376,6 @@ int Interp::open(const char *filename)
     s.sequence_number = 0;
     CHECK(s.main_open, "A file is already open");
     CHECK(strlen(filename) > INTERP_LINELEN - 1, "File name too long");
-    s.canon.ON_RESET();
-    unwind(s);
-    close_files(s);
     auto file = std::make_unique<LineSource>();
     if (!file->open(filename, s.options.snapshot)) {
         const char *why = strerror(errno);
@@ -386,13 +383,16 @@ int Interp::open(const char *filename)
         s.fault.fix = why;
         return status;
     }
+    unwind(s);
+    close_files(s);
     s.sources.push_back(std::move(file));
     s.source = 0;
     s.main_open = true;
     s.main_file = filename;
     nurbs_forget(s);
     const int status = look_for_percent_line(s);
-    if (status != INTERP_OK) close_files(s);
+    if (status == INTERP_OK) s.canon.ON_RESET();
+    else close_files(s);
     return status;
 }
 

@@ -161,11 +161,12 @@ Verdict after_error(Session &s, int status)
     return GO_ON;
 }
 
-int run_program(Session &s)
+int run_program(Session &s, bool *opened)
 {
     s.canon.SET_BLOCK_DELETE(s.o.block_delete);
     int status = s.interp->open(s.o.input.c_str());
-    if (status != INTERP_OK) {
+    *opened = status == INTERP_OK;
+    if (!*opened) {
         report_error(s, status);
         return 1;
     }
@@ -428,13 +429,14 @@ int run(int argc, char **argv)
         return 1;
     }
     if (s.o.log_level != -1) s.interp->set_log_level(s.o.log_level);
+    bool opened = true;
     if (s.o.have_input) {
-        status = run_program(s);
-        s.interp->close();
+        status = run_program(s, &opened);
+        if (opened) s.interp->close();
     } else {
         status = run_interactive(s);
     }
-    s.interp->exit();
+    if (opened) s.interp->exit();
     s.canon.flush();
     s.canon.set_line_text(nullptr);
     if (output != stdout) {

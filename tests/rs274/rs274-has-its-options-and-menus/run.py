@@ -39,7 +39,7 @@ check(len(r.err.strip().split("\n")) > 4 and "convert_straight" in r.err, "stack
 r, _, _ = run(base + ["-T", "t.ngc"], program="(print,#<_task>)\nM2\n")
 check(r.printed == ["1.000000"], r.printed)
 r, _, _ = run(base + ["nothere.ngc"])
-check(r.status == 1 and "Unable to open file <nothere.ngc>" in r.err, r.err)
+check(r.status == 1 and "Unable to open file <nothere.ngc>" in r.err and "ON_RESET" not in r.out, r.err)
 r, _, _ = run(["-x"])
 check(r.status == 1 and "Usage: rs274" in r.err, r.err)
 r, _, _ = run(base + ["a", "b", "c", "d"])
