@@ -42,13 +42,20 @@ static double limit_speed(const spindle_status_t *s, double rpm)
 
 void cmd_set_spindlesync(M *m, C *c) { tpSetSpindleSync(&m->tp, c->spindle, c->spindlesync, c->flags); }
 
+/* An order that a spindle obeys already: what waited for its speed has done so. */
+static int same_order(const spindle_status_t *s, C *c)
+{
+    return s->state && c->state && s->speed == limit_speed(s, c->vel) && s->css_factor == c->ini_maxvel && s->xoffset == c->acc;
+}
+
 void cmd_spindle_on(M *m, C *c)
 {
-    int s, end;
+    int s, end, changed = 0;
     if (!spindle_range(m, c, &s, &end, "!Attempt to start non-existent spindle"))
         return;
     for (; s < end; s++) {
         spindle_status_t *sp = &m->status->spindle_status[s];
+        changed |= !same_order(sp, c);
         hal_set_bool(m->pins->spindle[s].orient, 0);
         hal_set_bool(m->pins->spindle[s].locked, 0);
         sp->locked = 0;
@@ -65,7 +72,8 @@ void cmd_spindle_on(M *m, C *c)
             sp->brake = 0;
         }
     }
-    m->status->atspeed_next_feed = c->wait_for_spindle_at_speed;
+    if (changed)
+        m->status->atspeed_next_feed = c->wait_for_spindle_at_speed;
 }
 
 void cmd_spindle_off(M *m, C *c)

@@ -66,7 +66,7 @@ struct Thread {
         }
         s.canon.STOP_SPEED_FEED_SYNCH();
         move(false, clear, target_z - zoff);
-        s.canon.ENABLE_FEED_OVERRIDE();
+        if (s.feed_override) s.canon.ENABLE_FEED_OVERRIDE(); // as M48 to M50 left it
     }
 };
 

@@ -528,6 +528,12 @@ int MotionLink::set_aout(int index, double start, double end, int now) {
     return send(c);
 }
 
+bool MotionLink::spindle_runs_at(int spindle, double speed, double factor) const {
+    if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || speed == 0 || factor != 0) return false;
+    const spindle_status_t &s = status_.spindle_status[spindle];
+    return s.state && last_state_ && s.speed == speed && s.css_factor == 0 && !s.brake;
+}
+
 int MotionLink::spindle_on(int spindle, double speed, double factor, double xoffset, int wait) {
     emcmot_command_t c = command(EMCMOT_SPINDLE_ON);
     c.spindle = spindle;

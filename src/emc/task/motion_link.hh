@@ -100,6 +100,8 @@ public:
     int enable_flag(cmd_code_t code, int on, int spindle = 0);
     int set_dout(int index, int start, int end, int now);
     int set_aout(int index, double start, double end, int now);
+    /* An order for this speed (rpm, signed) and surface speed factor would change nothing. */
+    bool spindle_runs_at(int spindle, double speed, double factor) const;
     int spindle_on(int spindle, double speed, double factor, double xoffset, int wait);
     int spindle_speed(int spindle, double speed, double factor, double xoffset);
     int spindle_command(cmd_code_t code, int spindle);

@@ -94,6 +94,7 @@ private:
     // ---- execute ----
     int issue(const NMLmsg &m);
     int precondition(const NMLmsg &m) const;
+    bool changes_nothing(const NMLmsg &m) const;
     int postcondition(const NMLmsg &m) const;
     bool step_holds();
     void take_next();

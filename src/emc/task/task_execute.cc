@@ -73,7 +73,29 @@ const std::unordered_map<NMLTYPE, Conditions> &conditions() {
 
 } // namespace
 
+/* A word that repeats what is in force: it need not wait, so that a path goes on over it. */
+bool Task::changes_nothing(const NMLmsg &m) const {
+    switch (m._type) {
+    case EMC_COOLANT_FLOOD_ON_TYPE: return stat_.io.coolant.flood;
+    case EMC_COOLANT_FLOOD_OFF_TYPE: return !stat_.io.coolant.flood;
+    case EMC_COOLANT_MIST_ON_TYPE: return stat_.io.coolant.mist;
+    case EMC_COOLANT_MIST_OFF_TYPE: return !stat_.io.coolant.mist;
+    case EMC_SPINDLE_SPEED_TYPE:
+        {
+            const EMC_SPINDLE_SPEED &s = as<EMC_SPINDLE_SPEED>(m);
+            return motion_.spindle_runs_at(s.spindle, s.speed, s.factor);
+        }
+    case EMC_SPINDLE_ON_TYPE:
+        {
+            const EMC_SPINDLE_ON &s = as<EMC_SPINDLE_ON>(m);
+            return motion_.spindle_runs_at(s.spindle, s.speed, s.factor);
+        }
+    default: return false;
+    }
+}
+
 int Task::precondition(const NMLmsg &m) const {
+    if (changes_nothing(m)) return EMC_TASK_EXEC_DONE;
     if (m._type == EMC_MOTION_SET_AOUT_TYPE && !as<EMC_MOTION_SET_AOUT>(m).now) return EMC_TASK_EXEC_DONE;
     if (m._type == EMC_MOTION_SET_DOUT_TYPE && !as<EMC_MOTION_SET_DOUT>(m).now) return EMC_TASK_EXEC_DONE;
     if (m._type == OffsetsNow::NUMBER) return EMC_TASK_EXEC_DONE;
