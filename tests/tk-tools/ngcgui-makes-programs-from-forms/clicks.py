@@ -21,6 +21,7 @@ def said():
 
 
 print(said(), [(e.get(), e.cget("foreground") == bad) for _, e, _ in page.rows], clipped(root))
+print("picture:", page.image and (page.image.width(), page.image.height()), bool(page.picture.winfo_ismapped()))
 hand.click(page.buttons["Create Feature"])
 print(said(), str(page.buttons["MakeFile"].cget("state")))
 hand.click(page.rows[2][1])

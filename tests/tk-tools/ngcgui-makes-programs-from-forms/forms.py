@@ -4,7 +4,7 @@ from kerf.tktools.ngcfiles import NotUsable, Program, form_of, frame_lines, star
 
 form = form_of("subs/pocket.ngc")
 print(form.info, [(p.number, p.name, p.default, p.label) for p in form.parameters])
-for path in sorted(Path("subs").iterdir()):
+for path in sorted(p for p in Path("subs").iterdir() if p.suffix != ".jpg"):
     try:
         form_of(path)
     except NotUsable as error:

@@ -28,6 +28,7 @@ printf 'o<many> sub\n#<a> = #31\no<many> endsub\n' > subs/many.ngc
 printf '(not_a_subfile)\no<not> sub\no<not> endsub\n' > subs/not.ngc
 printf '// ngcgui: info: from gcmc\n//ngcgui: -q\n//ngcgui: width = 3;5, the width\n//ngcgui: width = 4\n//ngcgui: height\n' > subs/shape.gcmc
 printf 'G21 G90\nG0 X0 Y0 Z0\n' > pre.ngc
+/usr/bin/python3 -c 'from PIL import Image; Image.new("RGB", (800, 400), "#c04020").save("subs/pocket.jpg")'
 /usr/bin/python3 forms.py
 for f in calls expanded; do rs274 -g $f.ngc -i subs.ini 2>&1 | sed -E 's/^ *[0-9]+ +N[.0-9]+ *//' | grep -E "STRAIGHT_FEED|DWELL|rror" > $f.run; echo "$f: $(grep -c FEED $f.run)"; done
 cmp calls.run expanded.run && head -3 calls.run

@@ -2,6 +2,8 @@
 """ngcgui: programs from subroutine files, by filling in forms."""
 
 import argparse
+import base64
+import io
 import os
 import subprocess
 import sys
@@ -134,10 +136,11 @@ class Page:
         self.image = None
         if self.form.picture and not self.o.noiframe:
             try:
-                from PIL import Image, ImageTk
-                picture = Image.open(self.form.picture)
+                from PIL import Image
+                picture, data = Image.open(self.form.picture), io.BytesIO()
                 picture.thumbnail(PICTURE)
-                self.image = ImageTk.PhotoImage(picture, master=self.parent)
+                picture.convert("RGBA").save(data, "PNG")
+                self.image = tk.PhotoImage(master=self.parent, data=base64.b64encode(data.getvalue()))
             except (OSError, ImportError) as error:
                 self.say(f"{self.form.picture}: {error}", True)
         self.picture.configure(image=self.image or "")
