@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Two minutes of a busy machine (a program in a loop, offsets, tool changes, messages, three clients that poll and read
+# every attribute, one that dies again and again): none of the long-running processes grows.
+import re
+
+from mill import *
+
+SESSION = [e for e in Path("/proc/self/environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")][0]
+NAMES = ("milltask", "rtapi_app", "halui", "linuxcncsvr", "client")
+CLIENT = """
+import linuxcnc
+from kerf import clock
+open("/proc/self/comm", "w").write("client")
+clock.join("client", 600)
+s, e, m = linuxcnc.stat(), linuxcnc.error_channel(), linuxcnc.message_log()
+names = [n for n in dir(s) if not n.startswith("_") and n not in ("poll", "toolinfo")]
+while True:
+    s.poll()
+    [getattr(s, n) for n in names]
+    e.poll()
+    m.poll()
+    clock.sleep(0.02)
+"""
+
+
+def sizes():
+    """Name -> kB of private memory; processes of this session."""
+    found = {}
+    for p in Path("/proc").iterdir():
+        try:
+            name = (p / "comm").read_text().strip()
+            if name in NAMES and SESSION in (p / "environ").read_bytes().split(b"\0"):
+                rollup = (p / "smaps_rollup").read_text()
+                found[name + p.name] = sum(int(l.split()[1]) for l in rollup.splitlines() if l.startswith("Private_"))
+        except OSError:
+            pass
+    return found
+
+
+on()
+children = [clock.spawn(["/usr/bin/python3", "-c", CLIENT], f"client{n}", priority=600) for n in range(3)]
+program("o1 while [1]\nG10 L2 P1 X#<_coord_system>\nT1 M6\nT2 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0\n(DEBUG, #5420)\no1 endwhile\nM2\n")
+c.auto(AUTO_RUN, 0)
+sleep(20)
+first = sizes()
+for n in range(10):
+    sleep(10)
+    short = clock.spawn(["/usr/bin/python3", "-c", "import linuxcnc; linuxcnc.stat().poll(); linuxcnc.command().debug(0)"], "short", priority=600)
+    clock.wait_until(lambda: short.poll() is not None, 60)
+last = sizes()
+grown = {re.sub(r"\d+$", "", n): last[n] - first[n] for n in first if n in last and last[n] - first[n] > 400}
+print(len(first), sorted({re.sub(r"\d+$", "", n) for n in first}), "grown:", grown)
+c.abort()
+for child in children:
+    child.kill()
+    child.wait()
