@@ -156,9 +156,17 @@ class Measurement:
         self.samples = open(samples, "wb") if samples else None
         ini, n = machine.ini, machine.joints
         self.axes = [a for a in "XYZABCUVW" if a in (ini.get("TRAJ", "COORDINATES") or "XYZ").upper()]
-        lines = [f"loadrt limitcheck count={n}",
-                 f"loadrt threads name1=measure-thread period1={round(SAMPLE_S * 1e9)}",
-                 f"loadrt sampler depth=4096,16384 cfg={'f' * len(self.axes)}s,{'f' * n}"]
+        lines = [f"loadrt limitcheck count={n}"]
+        # A module loads once: a machine that has these itself is watched without a picture of its path.
+        loaded = {name for name in ("sampler", "threads") if hal.component_exists(name)}
+        self.has_path = not loaded
+        if not self.has_path:
+            if samples:
+                raise RunError("this machine loads sampler or threads itself: --samples cannot be used")
+            print("the machine loads sampler or threads itself: no picture, no distances", file=sys.stderr)
+        else:
+            lines += [f"loadrt threads name1=measure-thread period1={round(SAMPLE_S * 1e9)}",
+                      f"loadrt sampler depth=4096,16384 cfg={'f' * len(self.axes)}s,{'f' * n}"]
         for j in range(n):
             section = f"JOINT_{j}"
             lines += [f"addf limitcheck.{j} servo-thread",
@@ -167,11 +175,12 @@ class Measurement:
                       f"setp limitcheck.{j}.max-jerk {float(ini.get(section, 'MAX_JERK', '0'))}",
                       f"setp limitcheck.{j}.min-pos {float(ini.get(section, 'MIN_LIMIT', '-1e99'))}",
                       f"setp limitcheck.{j}.max-pos {float(ini.get(section, 'MAX_LIMIT', '1e99'))}"]
-            lines.append(self.link(f"joint.{j}.pos-cmd", f"limitcheck.{j}.pos-cmd sampler.1.pin.{j}"))
-        for i, axis in enumerate(self.axes):
-            lines.append(self.link(f"axis.{axis.lower()}.pos-cmd", f"sampler.0.pin.{i}"))
-        lines += [self.link("motion.motion-type", f"sampler.0.pin.{len(self.axes)}"),
-                  "addf sampler.0 measure-thread"]
+            lines.append(self.link(f"joint.{j}.pos-cmd", f"limitcheck.{j}.pos-cmd" + f" sampler.1.pin.{j}" * self.has_path))
+        if self.has_path:
+            for i, axis in enumerate(self.axes):
+                lines.append(self.link(f"axis.{axis.lower()}.pos-cmd", f"sampler.0.pin.{i}"))
+            lines += [self.link("motion.motion-type", f"sampler.0.pin.{len(self.axes)}"),
+                      "addf sampler.0 measure-thread"]
         if self.samples:
             lines.append("addf sampler.1 servo-thread")
         with tempfile.NamedTemporaryFile("w", suffix=".hal") as f:
@@ -182,7 +191,7 @@ class Measurement:
             raise RunError(f"cannot set up the measurement: {done.stderr.strip()}")
         self.component = hal.component(f"kerf-run-{os.getpid()}")
         self.component.ready()
-        self.stream = hal.stream(self.component, hal.sampler_base)
+        self.stream = hal.stream(self.component, hal.sampler_base) if self.has_path else None
         self.commands = hal.stream(self.component, hal.sampler_base + 1) if self.samples else None
         self.path = []
         self.distance = {"feed": 0.0, "rapid": 0.0}
@@ -211,7 +220,7 @@ class Measurement:
                 break
             array.array("d", row).tofile(self.samples)
         last = self.path[-1] if self.path else None
-        while True:
+        while self.stream is not None:
             sample = self.stream.read()
             if sample is None:
                 return

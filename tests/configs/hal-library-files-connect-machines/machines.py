@@ -109,4 +109,6 @@ machine("show", SIM + "HALFILE = LIB:var_show.tcl")
 machine("check", "HALFILE = LIB:core_sim.hal\nHALFILE = LIB:simulated_home.hal\nHALFILE = loose.hal\nHALFILE = LIB:halcheck.tcl nopopup",
         kins="trivkins", base=50000)
 Path("check/loose.hal").write_text("loadrt and2\nnet alone and2.0.in0\nnet silent <= and2.0.out\n")
+machine("sampled", SIM + "HALFILE = s.hal")
+Path("sampled/s.hal").write_text("loadrt sampler depth=100 cfg=f\naddf sampler.0 servo-thread\n")
 sys.exit(0)
