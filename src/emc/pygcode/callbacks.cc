@@ -125,9 +125,11 @@ class CallbackCanon final : public PreviewCanon
         interp->active_m_codes(code.m);
         interp->active_settings(code.settings);
     }
-    void announce()
+    void announce() { announce(interp->sequence_number()); }
+    /// A move that compensation has held back belongs to a line before the one being read.
+    void announce(int line)
     {
-        const int line = interp->sequence_number();
+        if (line < 0) line = interp->sequence_number();
         if (line == delivered) return;
         delivered = line;
         code.g[0] = code.m[0] = line;
@@ -186,31 +188,31 @@ class CallbackCanon final : public PreviewCanon
     void on_traverse(int line, const EmcPose &end) override
     {
         if (batching) return add(TRAVERSE, line, end);
-        announce();
+        announce(line);
         m_traverse.pose(end);
     }
     void on_feed(int line, const EmcPose &end) override
     {
         if (batching) return add(FEED, line, end);
-        announce();
+        announce(line);
         m_feed.pose(end);
     }
     void on_probe(int line, const EmcPose &end) override
     {
         if (batching) return add(PROBE, line, end);
-        announce();
+        announce(line);
         m_probe.pose(end);
     }
     void on_tap(int line, double x, double y, double z) override
     {
         if (batching) return add(TAP, line, xyz(x, y, z));
-        announce();
+        announce(line);
         m_tap(x, y, z);
     }
-    void on_arc(int, double first_end, double second_end, double first_axis, double second_axis, int rotation,
+    void on_arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation,
                 double axis_end, const EmcPose &p) override
     {
-        forward();
+        forward(line);
         m_arc(first_end, second_end, first_axis, second_axis, rotation, axis_end, p.a, p.b, p.c, p.u, p.v, p.w);
     }
     void on_dwell(int line, double seconds) override
@@ -253,10 +255,11 @@ class CallbackCanon final : public PreviewCanon
         return p;
     }
     // Before a callback that is not batched.
-    void forward()
+    void forward() { forward(interp->sequence_number()); }
+    void forward(int line)
     {
         if (batching) flush_rows();
-        announce();
+        announce(line);
     }
     void add(BatchKind kind, int line, const EmcPose &p)
     {
