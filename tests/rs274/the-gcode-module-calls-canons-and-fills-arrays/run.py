@@ -111,6 +111,14 @@ with tempfile.TemporaryDirectory() as d:
     bad = gcode.load(d + "/bad.ngc")
     check(bad.fault["line"] == 2 and bad.fault["column"] == 7 and bad.fault["what"] == "Multiple x words on one line", bad.fault)
 
+    # Compensation holds moves back: each is told with its own line.
+    open(d + "/comp.ngc", "w").write("G21 F100\nG41.1 D2\nG1 X10\nX20\nY20\nG40\nM2\n")
+    c = Canon(d)
+    gcode.parse(d + "/comp.ngc", c, "", "")
+    told = [(e[0], e[1]) for e in c.log if e[0] in ("next_line", "straight_feed")]
+    feeds = [told[n - 1][1] for n, e in enumerate(told) if e[0] == "straight_feed"]
+    check(feeds == [3, 4, 5], told)
+
     # Ctrl-C ends what does not end by itself.
     def interrupt(*_):
         raise KeyboardInterrupt
