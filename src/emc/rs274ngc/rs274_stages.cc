@@ -13,22 +13,13 @@
 
 #include "arc.hh"
 #include "interp.hh"
+#include "rs274_expect.hh"
 #include "stages.hh"
 
 using namespace ngc;
 
 namespace
 {
-
-int failures = 0;
-
-#define EXPECT(condition) \
-    do { \
-        if (!(condition)) { \
-            printf("%s:%d: %s\n", __FILE__, __LINE__, #condition); \
-            ++failures; \
-        } \
-    } while (0)
 
 class NoMachine : public Canon
 {
@@ -235,20 +226,8 @@ void positions()
 
 int main()
 {
-    char dir[] = "/tmp/interp-stages.XXXXXX";
-    if (!mkdtemp(dir) || chdir(dir) != 0) return 1;
-    struct {
-        const char *name;
-        void (*run)();
-    } tests[] = {
+    return run_tests({
         {"text", text}, {"sources", sources}, {"names", names}, {"expressions", expressions},
         {"words", words}, {"inference and checks", inference}, {"positions", positions},
-    };
-    for (const auto &t : tests) {
-        const int before = failures;
-        t.run();
-        printf("%s: %s\n", failures == before ? "ok" : "FAILED", t.name);
-    }
-    if (chdir("/") == 0) rmdir(dir);
-    return failures ? 1 : 0;
+    });
 }

@@ -16,6 +16,7 @@
 
 #include "check_program.hh"
 #include "interp.hh"
+#include "rs274_expect.hh"
 #include "stages.hh"
 
 // Every allocation of this program and of the libraries it uses is counted.
@@ -31,16 +32,6 @@ void operator delete(void *p, size_t) noexcept { free(p); }
 
 namespace
 {
-
-int failures = 0;
-
-#define EXPECT(condition) \
-    do { \
-        if (!(condition)) { \
-            printf("%s:%d: %s\n", __FILE__, __LINE__, #condition); \
-            ++failures; \
-        } \
-    } while (0)
 
 /// A machine that does at once what it is told and keeps a list.
 class TestCanon : public Canon
@@ -438,12 +429,7 @@ void what_a_line_asks_for_is_bounded()
 
 int main()
 {
-    char dir[] = "/tmp/interp-unit.XXXXXX";
-    if (!mkdtemp(dir) || chdir(dir) != 0) return 1;
-    struct {
-        const char *name;
-        void (*run)();
-    } tests[] = {
+    return run_tests({
         {"mdi runs whole subs", mdi_runs_whole_subs},
         {"mdi leaves the program where it was", mdi_leaves_the_program_where_it_was},
         {"interpreters share nothing", interpreters_share_nothing},
@@ -458,12 +444,5 @@ int main()
         {"endless subs give control back", endless_subs_give_control_back},
         {"what a line asks for is bounded", what_a_line_asks_for_is_bounded},
         {"FP-104 checks find what is wrong without a machine", checks_find_what_is_wrong_without_a_machine},
-    };
-    for (const auto &t : tests) {
-        const int before = failures;
-        t.run();
-        printf("%s: %s\n", failures == before ? "ok" : "FAILED", t.name);
-    }
-    if (chdir("/") == 0) rmdir(dir);
-    return failures ? 1 : 0;
+    });
 }
