@@ -4,6 +4,7 @@
 import os
 import re
 import sys
+import tempfile
 import tkinter as tk
 from pathlib import Path
 from tkinter import filedialog, simpledialog, ttk
@@ -362,7 +363,9 @@ class Window:
             return
         self.history.add(line)
         words = line.split()
-        text = self.hal(*(words[1:] if words[0] == "halcmd" else words))
+        if words[0] == "halcmd":
+            words.pop(0)
+        text = self.saved(words) if words[:1] == ["save"] and len(words) < 3 else self.hal(*words) if words else ""
         if text is None:
             return
         self.command.delete(0, "end")
@@ -376,6 +379,13 @@ class Window:
         except RuntimeError as error:
             self.say(str(error), True)
         self.view.layout()
+
+    def saved(self, words):
+        """What `save` without a file writes; None when it failed."""
+        with tempfile.NamedTemporaryFile("r", suffix=".hal") as file:
+            if self.hal("save", *(words[1:] or ["all"]), file.name) is None:
+                return None
+            return file.read()
 
     def recall(self, step):
         self.command.delete(0, "end")

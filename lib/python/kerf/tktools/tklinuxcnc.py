@@ -75,7 +75,7 @@ class Window:
                          ("Font...", self.choose_font)),
             "Units": tuple((unit, ("unit", unit)) for unit in ("auto", "inches", "mm", "cm")),
             "Utilities": (("Hal Scope", lambda: run("halscope")), ("Hal Meter", lambda: run("halmeter"))),
-            "Scripts": (("Set Coordinates", self.popups.set_coordinates), ("HAL Show", lambda: run("halshow")), ("HAL Config", lambda: run("halshow"))),
+            "Scripts": (("Set Coordinates", self.popups.set_coordinates), ("HAL Show", lambda: run("halshow")), ("HAL Config", lambda: run("halconfig"))),
             "Help": (("Help...", self.help), ("Balloon help", ("check", self.balloons)), ("About...", self.about)),
         }
         for title, lines in entries.items():
