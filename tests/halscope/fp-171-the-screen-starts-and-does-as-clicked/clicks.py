@@ -186,7 +186,8 @@ def operate(s):
     s.dialog.accept()
     print(told.pop(), settings.samples)
     s.select(6)
-    s.root.event_generate("<Control-q>")
+    bar = s.root.nametowidget(s.root["menu"])
+    s.root.nametowidget(bar.entrycget("File", "menu")).invoke("Quit")
 
 
 screen.Screen = Operated
