@@ -35,8 +35,7 @@ class Probe:
         self.answer = {"0": "KERF_OPENGL=0", "1": None}.get(choice, "")
         self.child = None
         if self.answer == "":
-            folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-            path = os.pathsep.join(filter(None, (folder, os.environ.get("PYTHONPATH"))))
+            path = os.pathsep.join(filter(None, sys.path))       # it finds the modules that we find
             self.child = subprocess.Popen([sys.executable, "-m", "kerf.gl"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                           stderr=subprocess.PIPE, text=True, errors="replace", env=os.environ | {"PYTHONPATH": path})
 

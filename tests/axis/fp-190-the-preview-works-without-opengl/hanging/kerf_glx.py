@@ -1,0 +1,4 @@
+# Stands for a driver that hangs.
+import time
+
+time.sleep(1000)

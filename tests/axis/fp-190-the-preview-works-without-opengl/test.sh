@@ -1,0 +1,25 @@
+#!/bin/bash
+# FP-189, FP-190: with OpenGL, without it, on a display without GLX, with a driver that crashes or hangs: the screen
+# starts within a time limit, shows the program and says why there is no OpenGL.
+. "$TEST_DIR/../lib/machine.sh"
+printf 'G21 G90 F1000\nG0 X0 Y0 Z0\nG1 X40\nG1 Y30\nG1 X0\nG1 Y0\nM2\n' > part.ngc
+echo "== as the display has it"
+screen_test mill look.py "$PWD/part.ngc"
+sed 's/OpenGL\|drawn/a picture/' machine/transcript
+for why in off crashing hanging; do
+    echo "== $why"
+    case $why in
+        off) KERF_OPENGL=0 screen_test mill look.py "$PWD/part.ngc" ;;
+        *) PYTHONPATH="$TEST_DIR/$why:$PYTHONPATH" screen_test mill look.py "$PWD/part.ngc" ;;
+    esac
+    cat machine/transcript
+    grep -h "without OpenGL" screen.log screen.err | sed 's/status -[0-9]*/status -N/'
+    grep -i -A8 traceback screen.err
+done
+echo "== no GLX"
+coproc server { exec Xvfb -displayfd 1 -screen 0 800x600x24 -extension GLX -nolisten tcp 2>/dev/null; }
+pid=$server_PID
+read -r number <&"${server[0]}"
+DISPLAY=:$number /usr/bin/python3 -c 'from kerf import gl; print(gl.Probe().result())'
+kill "$pid"; wait "$pid" 2>/dev/null
+rm -rf machine home part.ngc screen.log screen.err

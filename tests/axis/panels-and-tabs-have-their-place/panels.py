@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+import os
+import subprocess
+import sys
+import time
+
+from kerf import clock
+import operator_lib as lib
+
+
+def halcmd(*words):
+    return clock.run(["halcmd", *words], stdout=subprocess.PIPE, text=True).stdout.strip()
+
+
+def script(op):
+    sys.stdout = open("transcript", "w", buffering=1)
+    app, tcl = op.app, op.root.tk
+    op.root.geometry("1000x700")
+    op.wait(0.3)
+    print("messages:", [m.splitlines()[0].split("/")[0] for m in op.messages()])
+    print("pages:", *map(str, tcl.splitlist(tcl.call(".pane.top.right", "pages"))),
+          "|", *[tcl.call(".pane.top.right", "itemcget", p, "-text") for p in tcl.splitlist(tcl.call(".pane.top.right", "pages"))])
+    print("menu has the panel:", any("PyVCP" in str(tcl.call(".menu.view", "entrycget", i, "-label")) for i in range(int(tcl.call(".menu.view", "index", "end")) + 1)
+                                     if str(tcl.call(".menu.view", "type", i)) != "separator"))
+    if app.panel is None:
+        print("no panel; the screen works:", op.enabled(".toolbar.machine_power") or True)
+        return
+    grid = dict(zip(*[iter(map(str, tcl.splitlist(tcl.call("grid", "info", ".pyvcp"))))] * 2))
+    print("panel: column", grid["-column"], "row", grid["-row"], "shown:", bool(app.panel.winfo_viewable()))
+    for line in halcmd("-s", "show", "pin", "pyvcp").splitlines() + halcmd("-s", "show", "pin", "my_lamp").splitlines():
+        print(" ".join(line.split()[1:3]), line.split()[4])
+    op.key("e", state=4)
+    op.root.update()
+    print("Ctrl-E: shown:", bool(app.panel.winfo_viewable()), end=" ")
+    op.key("e", state=4)
+    op.root.update()
+    print("again:", bool(app.panel.winfo_viewable()))
+    xid = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(app.settings.ini_path))), "xid")
+    end = time.monotonic() + 60          # a process of the outside world: real time
+    while not (os.path.exists(xid) and os.path.getsize(xid) > 1) and time.monotonic() < end:
+        time.sleep(0.02)
+    print("the guest got the window's id:", int(open(xid).read()) == app.x_window(f"{tcl.call('.pane.top.right', 'getframe', 'user_1')}.container"))
+    print("forwards events to:", int(os.environ["AXIS_FORWARD_EVENTS_TO"]) == op.root.winfo_id())
+    op.key("F4")
+    op.key("F4")
+    print("F4 twice:", tcl.call(".pane.top.right", "raise"))
+
+
+lib.run(script)

@@ -1,0 +1,24 @@
+#!/bin/bash
+# A PyVCP panel at the right, tabs: one of PyVCP, one of another program by its X window; a panel that is broken is told.
+. "$TEST_DIR/../lib/machine.sh"
+cat > panel.xml <<'X'
+<pyvcp><vbox><label><text>"Coolant"</text></label><button><halpin>"pump"</halpin><text>"Pump"</text></button><led><halpin>"level"</halpin></led></vbox></pyvcp>
+X
+cat > tab.xml <<'X'
+<pyvcp><led><halpin>"lamp"</halpin></led></pyvcp>
+X
+printf '<pyvcp><label><text>1/0</text></label></pyvcp>\n' > broken.xml
+printf 'net level <= pyvcp.pump => pyvcp.level\n' > post.hal
+printf '#!/bin/sh\necho "$1" > "%s/xid"\nexec sleep 1000\n' "$PWD" > guest.sh
+chmod +x guest.sh
+common="EMBED_TAB_NAME = My Lamp\nEMBED_TAB_COMMAND = pyvcp $PWD/tab.xml\nEMBED_TAB_NAME = Guest\nEMBED_TAB_COMMAND = $PWD/guest.sh {XID}"
+ini_edit="s|^DISPLAY = .*|&\nPYVCP = $PWD/panel.xml\n$common|; s|^HALFILE = spindle.hal|&\nPOSTGUI_HALFILE = $PWD/post.hal|"
+screen_test mill panels.py
+cat machine/transcript
+grep -i -A8 traceback screen.err
+echo "== broken, at the bottom, and an uneven list of tabs"
+ini_edit="s|^DISPLAY = .*|&\nPYVCP = $PWD/broken.xml\nPYVCP_POSITION = BOTTOM\nEMBED_TAB_NAME = Alone|"
+screen_test mill panels.py
+cat machine/transcript
+grep -h -o "Invalid tab configuration" screen.log screen.err
+rm -rf machine home screen.log screen.err ./*.xml post.hal guest.sh xid
