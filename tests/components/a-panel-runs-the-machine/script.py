@@ -32,7 +32,7 @@ def at(axis):
     return round(poll().position[axis], 3)
 
 
-print("loaded", hal("halcmd", "loadusr", "-W", "panelui"))
+print("loaded", hal("halcmd", "loadusr", "-W", "panelui")[0])
 press(0, 0)
 need(lambda s: s.task_state == STATE_ESTOP_RESET, "estop reset")
 press(0, 1)
