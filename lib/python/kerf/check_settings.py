@@ -21,6 +21,7 @@ NEAR = 0.75                  # similarity from which a name is taken for a typin
 TOO_FAST = {"mm": 3000.0, "inch": 120.0}
 TOO_LONG_INCH = 1000.0       # travel of an inch machine that must be in millimetres
 INCH_WORDS = ("in", "inch", "imperial")
+TEXT_DEPTH, TEXT_FILES = 3, 400     # how far the files beside the INI file are looked at
 GROUPS = {"EMBED_TAB_NAME": "EMBED_TAB_COMMAND", "MESSAGE_TEXT": "MESSAGE_TYPE"}
 
 
@@ -61,13 +62,15 @@ class Settings:
         if not hasattr(self, "_texts"):
             parts = []
             for folder, folders, files in os.walk(self.folder):
-                folders[:] = [f for f in folders if not f.startswith(".")][:50]
-                for name in files[:500]:
-                    path = os.path.join(folder, name)
+                deep = len(Path(folder).relative_to(self.folder).parts) >= TEXT_DEPTH
+                folders[:] = [] if deep else [f for f in folders if not f.startswith(".")]
+                if len(parts) >= TEXT_FILES:            # a folder of something else: the start must not wait for it
+                    break
+                for name in files[:TEXT_FILES]:
                     if name.endswith((".hal", ".tcl", ".py", ".ngc", ".sh", ".xml", ".ui", ".glade")):
                         try:
-                            with open(path, errors="replace") as f:
-                                parts.append(f.read(1 << 20))
+                            with open(os.path.join(folder, name), errors="replace") as f:
+                                parts.append(f.read(1 << 18))
                         except OSError:
                             pass
             self._texts = "\n".join(parts)
