@@ -44,6 +44,7 @@ class Page:
         self.frame = ttk.Frame(parent, padding=px(6))
         self.status = ttk.Label(self.frame, anchor="w", padding=px(4), relief="sunken")
         self.status.pack(side="bottom", fill="x")
+        self.status.bind("<Configure>", lambda event: self.status.configure(wraplength=event.width - px(12)))
         self._controls()
         self.entries = Scrolled(self.frame, style)
         self.entries.pack(side="left" if not options.vert else "top", fill="both", expand=True, padx=px(6))
