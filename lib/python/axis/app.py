@@ -570,6 +570,8 @@ def main(argv):
     try:
         app.start(os.path.abspath(rest[0]) if rest else None)
         root.mainloop()
+    except KeyboardInterrupt:        # the launcher ends the session
+        pass
     finally:
         app.close()
     return app.exit_status

@@ -1,0 +1,53 @@
+#!/usr/bin/python3
+import os
+import signal
+import sys
+
+import hal
+import operator_lib as lib
+from kerf import clock
+
+
+def task_of(ini):
+    """Process of the task that runs this configuration."""
+    for entry in os.listdir("/proc"):
+        if entry.isdigit():
+            try:
+                with open(f"/proc/{entry}/cmdline", "rb") as f:
+                    words = f.read().split(b"\0")
+            except OSError:
+                continue
+            if b"milltask" in words[0] and any(os.path.realpath(w) == os.path.realpath(ini).encode() for w in words[1:] if w):
+                return int(entry)
+    raise RuntimeError("no task")
+
+
+def enabled():
+    try:
+        return bool(hal.get_value("joint.0.amp-enable-out"))
+    except RuntimeError:                 # the machine is taken down already
+        return False
+
+
+def script(op):
+    out = open("../transcript", "w", buffering=1)
+    op.power_on()
+    op.home()
+    op.hold("Left")
+    op.wait(0.3)
+    print("moves:", abs(op.stat.joint[0]["velocity"]) > 0, file=out)
+    os.kill(task_of(op.app.settings.ini_path), signal.SIGKILL)
+    try:
+        for _ in range(500):
+            clock.sleep(0.02)
+            if not op.app.tick() or not enabled():
+                break
+        else:
+            print("nothing happened within 10 s", file=out)
+    except KeyboardInterrupt:            # the launcher ends the screen
+        pass
+    print("joint enabled:", enabled(), file=out)
+    os._exit(0)
+
+
+lib.run(script)
