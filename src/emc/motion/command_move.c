@@ -28,7 +28,7 @@ static int move_allowed(M *m, C *c, const char *word, const char *kind)
         set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
         return 0;
     }
-    if (c->command == EMCMOT_SET_CIRCLE ? !arc_in_range(m, c) : !in_range(m, &c->pos, c->id, kind)) {
+    if (c->command == EMCMOT_SET_CIRCLE ? !arc_in_range(m, c) : !line_in_range(m, c, kind)) {
         if (c->command == EMCMOT_SET_LINE)
             report_error("invalid params in linear command");
         answer(m, EMCMOT_COMMAND_INVALID_PARAMS);

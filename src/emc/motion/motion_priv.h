@@ -318,6 +318,8 @@ struct axis_reach axis_reach_of(const simple_tp_t *tp, double T);
 /* range.c: 1 when a point, or an arc from the end of the queue, is within the limits; else reported. */
 int in_range(struct motion *m, const EmcPose *pos, int id, const char *kind);
 int arc_in_range(struct motion *m, const emcmot_command_t *c);
+/* The same for a line, on the way to which joints of other kinematics may bulge. */
+int line_in_range(struct motion *m, const emcmot_command_t *c, const char *kind);
 
 /* jog.c */
 void joint_stop(struct motion *m, int j, int immediate);

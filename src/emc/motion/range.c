@@ -3,7 +3,8 @@
  * range.c - may a move go where it is programmed to go?
  *
  * In:     points of the move, axis and joint limits, kinematics    Out: messages
- * Thread: servo; an arc is looked at in at most 2 * (6 + ARC_PLACES) + 1 points
+ * Thread: servo; an arc is looked at in at most 2 * (6 + ARC_PLACES) + 1 points,
+ *         a line in 2 * LINE_PLACES + 2
  */
 #include <float.h>
 #include <math.h>
@@ -12,6 +13,8 @@
 
 #define POSITION_EPSILON 1e-12 /* units: rounding of sums of offsets */
 #define UNCONFIGURED 1e-308    /* an axis whose limits are both below has none */
+#define LINE_PLACES 12         /* of a line where joints bend */
+#define BULGE 1e-6             /* units: less is rounding */
 #define ARC_PLACES 4           /* of a turn, beside the extremes of x, y and z: for the joints */
 
 int in_range(struct motion *m, const EmcPose *pos, int id, const char *kind)
@@ -114,4 +117,33 @@ int arc_in_range(struct motion *m, const emcmot_command_t *c)
     if (path_arc(&arc, start, end, center, normal, c->turn) != PATH_OK)
         return 1; /* the planner says what is wrong with it */
     return arc_bulges_in_range(m, &arc, c->id);
+}
+
+/* How far joints are outside their limits at a place; -1: out of reach, which the planner sees to. */
+static double outside_at(struct motion *m, const EmcPose *pose)
+{
+    double q[EMCMOT_MAX_JOINTS];
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        q[j] = m->joint[j].pos_cmd;
+    return kinematics_inverse(m, pose, q) != 0 ? -1.0 : joints_outside(m, q);
+}
+
+int line_in_range(struct motion *m, const emcmot_command_t *c, const char *kind)
+{
+    EmcPose from = m->queue_end, at = c->pos;
+    if (!in_range(m, &c->pos, c->id, kind))
+        return 0;
+    if (m->kin_type == KINEMATICS_IDENTITY) /* joints go straight as well */
+        return 1;
+    if (tpQueueDepth(&m->tp) == 0)
+        tpGetPos(&m->tp, &from);
+    double start = outside_at(m, &from);
+    for (int i = 1; i < LINE_PLACES; i++) {
+        for (int a = 0; a < EMCMOT_MAX_AXIS; a++)
+            *emcPoseAxis(&at, a) = emcPoseGetAxis(&from, a) + (emcPoseGetAxis(&c->pos, a) - emcPoseGetAxis(&from, a)) * i / LINE_PLACES;
+        /* a move from outside back inside is one */
+        if (start >= 0.0 && outside_at(m, &at) > start + BULGE && !in_range(m, &at, c->id, kind))
+            return 0;
+    }
+    return 1;
 }
