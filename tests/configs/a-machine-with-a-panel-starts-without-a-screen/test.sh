@@ -14,5 +14,5 @@ END
 chmod +x see
 KERF_CLOCK=virtual linuxcnc -r -D ./see panel.ini < /dev/null > log 2> errors; echo "status $?"
 grep '^[0-9][0-9]*$' log
-grep pyvcp errors
+grep '^pyvcp' errors
 grep -c Traceback errors || :
