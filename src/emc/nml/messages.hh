@@ -9,11 +9,12 @@
 
 #include "emcmotcfg.h"
 #include "emcpos.h"
+#include "linuxcnc.h"
 #include "nml.hh"
 #include "nml_code.hh"
 #include "state_tag.h"
 
-constexpr int LINELEN = 255, EMC_SYSTEM_CMD_LEN = 256, RESTORE_TEXT_LEN = 2048;
+constexpr int EMC_SYSTEM_CMD_LEN = 256, RESTORE_TEXT_LEN = 2048;
 constexpr int EMC_MESSAGE_LOG_LENGTH = 32;
 constexpr int EMC_ACTIVE_G_CODES = 17, EMC_ACTIVE_M_CODES = 10, EMC_ACTIVE_SETTINGS = 5;
 

@@ -4,7 +4,7 @@ ini=$(mktemp --suffix=.ini); trap 'rm -f "$ini"' EXIT
 try() { # SED-EXPRESSION: what the check says of the sample gantry, changed so
     echo "-- $1"
     sed "$1" ../../../configs/sim/gantry/gantry.ini > "$ini"
-    linuxcnc_check_ini "$ini" 2>&1 | grep -i 'sequence\|drive' | sed 's,^[^ ]*ini: ,,'
+    linuxcnc_check_ini "$ini" 2>&1 | grep -i 'sequence\|drive' | sed -E 's,^[^ ]*ini(:[0-9]+)?: ,,'
     echo "status ${PIPESTATUS[0]}"
 }
 try ''
