@@ -247,17 +247,24 @@ class Program:
         return "\n".join(lines) + "\n"
 
     def write(self, path):
-        """The program as a file, with a copy in BACKUP. OSError."""
+        """The program as a file, with a copy in a backup folder. OSError."""
         path, text = Path(path), self.text()
         new = path.with_name(path.name + ".new")
         new.write_text(text)
         os.replace(new, path)
-        try:
-            BACKUP.mkdir(exist_ok=True)
-            (BACKUP / path.name).write_text(text)
-        except OSError:
-            pass
+        for folder in backup_folders():
+            try:
+                folder.mkdir(exist_ok=True)
+                (folder / path.name).write_text(text)
+                break
+            except OSError:
+                continue
         return path
+
+
+def backup_folders():
+    """Where copies go: the documented folder, or one of this user's where that is another user's."""
+    return BACKUP, Path(f"{BACKUP}-{os.getuid()}")
 
 
 def start_folder(ini_find):
