@@ -306,8 +306,7 @@ int to_integer(Setup &s, double value, int *result)
         below = ceil(value);
     else
         CHECK(above > TOLERANCE_INT && !s.syntax_only, "Non integer value for integer");
-    // Beyond the range of int every use of the value is out of range, too.
-    *result = below > 2147483647.0 ? 2147483647 : below < -2147483648.0 ? -2147483647 - 1 : int(below);
+    *result = saturated(below);
     return INTERP_OK;
 }
 

@@ -48,7 +48,7 @@ int convert_io(Setup &s, int m)
         CHECK(s.comp_on(), "Cannot set %s with cutter radius compensation on",
               m == 62 ? "motion output" : m == 63 ? "motion digital output" : "auxiliary digital output");
         CHECK(!b.has('p'), "No valid P word with M%d", m);
-        const int index = int(rint(b['p']));
+        const int index = saturated(rint(b['p']));
         switch (m) {
         case 62: s.canon.SET_MOTION_OUTPUT_BIT(index); break;
         case 63: s.canon.CLEAR_MOTION_OUTPUT_BIT(index); break;
@@ -60,7 +60,7 @@ int convert_io(Setup &s, int m)
     if (m == 66) return wait_input(s);
     CHECK(s.comp_on(), "Cannot set %s analog output with cutter radius compensation on",
           m == 67 ? "motion" : "auxiliary");
-    const int index = int(rint(b.value('e', -1)));
+    const int index = saturated(rint(b.value('e', -1)));
     CHECK(index < 0, "Invalid analog index with M%d", m);
     const double value = b.value('q', -1);
     if (m == 67)

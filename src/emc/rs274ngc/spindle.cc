@@ -58,7 +58,7 @@ int orient(Setup &s)
         CHECK(spindle < 0 || spindle >= s.num_spindles, "Spindle ($) number out of range in M19 Command");
     }
     if (b.has('r') || b.has('p'))
-        enqueue_orient(s, spindle, b.value('r', 0) + s.orient_offset, int(rint(b.value('p', 0))));
+        enqueue_orient(s, spindle, b.value('r', 0) + s.orient_offset, saturated(rint(b.value('p', 0))));
     if (b.has('q')) {
         CHECK(b['q'] <= 0, "Q word with M19 requires a value > 0");
         enqueue_wait_orient(s, spindle, b['q']);

@@ -25,6 +25,11 @@ void fill_fault_place(Setup &s);
 [[nodiscard]] int read_bracketed(Setup &s, double *value);
 [[nodiscard]] int read_parameter_name(Setup &s, std::string_view *name);
 [[nodiscard]] int to_integer(Setup &s, double value, int *result);
+/// The int nearest to a whole number of any size: beyond the range of int every use of it is out of range, too.
+constexpr int saturated(double whole)
+{
+    return whole >= 2147483647.0 ? 2147483647 : whole <= -2147483648.0 ? -2147483647 - 1 : int(whole);
+}
 
 // ---- interp.cc: modes as at the start; the next line of the program -> block (empty when it is skipped)
 void init_modes(Setup &s);

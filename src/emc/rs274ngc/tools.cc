@@ -110,7 +110,7 @@ int convert_tool_change(Setup &s)
 int convert_tool_number(Setup &s)
 {
     const Block &b = s.block;
-    const int toolno = b.has('q') ? int(rint(b['q'])) : -1;
+    const int toolno = b.has('q') ? saturated(rint(b['q'])) : -1;
     CHECK(toolno < 0, "Need non-negative Q-word to specify tool number with M61");
     int idx;
     TRY(find_tool(s, toolno, &idx));
@@ -246,7 +246,7 @@ int convert_tool_data(Setup &s)
         s.toolchange_flag = true;
         return INTERP_OK;
     }
-    const int toolno = int(std::min(floor(b['p'] + 0.5), 2e9));
+    const int toolno = saturated(floor(b['p'] + 0.5));
     int idx;
     TRY(find_tool(s, toolno, &idx));
     CHECK(!b.any_axis() && !(b.present & word_bits("rijq")), "G10 L1 without offsets has no effect");
