@@ -95,6 +95,7 @@ int peck(Cycle &c, bool chip_break)
 {
     Setup &s = c.s;
     const double q = s.cycle_q;
+    CHECK(q <= 0, "Negative or zero q value used");
     const double gap = s.block.has('d') ? s.block['d'] : chip_break ? s.peck_g73 : s.peck_g83;
     CHECK(!(fabs(c.r - c.bottom) / q <= MAX_PECKS), "Q word gives more than %d pecks", MAX_PECKS);
     for (double depth = c.r - q * c.down; c.above(depth, c.bottom); depth -= q * c.down) {
@@ -118,12 +119,6 @@ int tap(Cycle &c, bool left)
 {
     Setup &s = c.s;
     const char *name = left ? "G74" : "G84";
-    if (s.block.has('$')) {
-        const int spindle = int(s.block['$']);
-        CHECK(spindle < 0 || spindle >= s.num_spindles, "Invalid %s in G74/G84 cycle",
-              s.plane == CANON_PLANE_XZ ? "E-number" : "spindle ($) number");
-        s.active_spindle = spindle;
-    }
     CHECK(s.plane >= CANON_PLANE_UV, "%s for plane %s not implemented", name, c.p.name);
     const int spindle = s.active_spindle;
     const CANON_DIRECTION in = left ? CANON_COUNTERCLOCKWISE : CANON_CLOCKWISE;
@@ -254,7 +249,7 @@ bool take_sticky(const Block &b, char word, bool first_use, double *sticky, bool
     return !first_use;
 }
 
-// P, Q, I, J, K: what the code needs on its first use.
+// P, Q, I, J, K: what the code needs on its first use; the spindle.
 int take_words(Setup &s, int g, bool first_use)
 {
     const Block &b = s.block;
@@ -265,7 +260,14 @@ int take_words(Setup &s, int g, bool first_use)
         break;
     case G_73: case G_83:
         CHECK(!take_sticky(b, 'q', first_use, &s.cycle_q, true), "Q word missing with g%d", g / 10);
-        CHECK(s.cycle_q <= 0, "Negative or zero q value used");
+        break;
+    case G_74: case G_84:
+        if (b.has('$')) {
+            const int spindle = int(b['$']);
+            CHECK(spindle < 0 || spindle >= s.num_spindles, "Invalid %s in G74/G84 cycle",
+                  s.plane == CANON_PLANE_XZ ? "E-number" : "spindle ($) number");
+            s.active_spindle = spindle;
+        }
         break;
     case G_87:
         CHECK(!take_sticky(b, 'i', first_use, &s.cycle_i), "I word missing with g87");

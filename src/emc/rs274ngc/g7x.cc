@@ -454,7 +454,7 @@ struct ModeGuard {
 int convert_g7x(Setup &s, int g)
 {
     const Block &b = s.block;
-    CHECK(!b.has('q'), "G%d.%d  requires a Q word", g / 10, g % 10);
+    CHECK(!b.has('q'), "G7x.x  requires a Q word");
     CHECK(g != G_70 && s.comp_on(), "G%d.%d cannot be used with cutter compensation enabled", g / 10, g % 10);
     CHECK(s.plane != CANON_PLANE_XZ, "G%d.%d can only be used in XZ plane (G18)", g / 10, g % 10);
     const bool incremental = s.distance_mode == MODE_INCREMENTAL;

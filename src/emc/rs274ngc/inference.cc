@@ -25,6 +25,12 @@ bool may_lack_axes(const Setup &s, int g)
     return is_g7x(g) || (s.remaps && s.remaps->g(g));
 }
 
+// G52 counts axis words alone, G92 polar words too (to refuse them next).
+bool lacks_axes(const Block &b, int group0)
+{
+    return !b.any_axis() && (group0 == G_52 || (group0 == G_92 && !(b.present & POLAR_WORDS)));
+}
+
 constexpr bool takes_axis_words(int group0)
 {
     return group0 == G_10 || group0 == G_28 || group0 == G_30 || group0 == G_52 || group0 == G_92;
@@ -54,7 +60,7 @@ int infer_motion(Setup &s)
 
     if (code == G_80) {
         CHECK((axes || polar) && !taken, "Cannot use axis values with g80");
-        CHECK(!axes && !polar && (group0 == G_52 || group0 == G_92), "All axes missing with g52 or g92");
+        CHECK(lacks_axes(b, group0), "All axes missing with g52 or g92");
         CHECK(polar && group0 == G_92, "Polar coordinates can only be used for motion");
         b.motion = code;
     } else if (code != -1) {
@@ -62,13 +68,13 @@ int infer_motion(Setup &s)
         CHECK(!axes && !polar && !may_lack_axes(s, code), "All axes missing with motion code");
         b.motion = code;
     } else if (taken) {
-        CHECK(!axes && !polar && (group0 == G_52 || group0 == G_92), "All axes missing with g52 or g92");
+        CHECK(lacks_axes(b, group0), "All axes missing with g52 or g92");
         CHECK(polar, "Polar coordinates can only be used for motion");
     } else if (axes || polar) {
         const int length_code = b.g_modes[GM_TOOL_LENGTH];
         CHECK((s.motion_mode == -1 || s.motion_mode == G_80) && length_code != G_43_1 && length_code != G_43_2,
               "Cannot use axis values without a g code that uses them");
-        if (length_code != G_43_1 && s.motion_mode != G_80) b.motion = s.motion_mode;
+        if (length_code != G_43_1) b.motion = s.motion_mode;
         CHECK(polar && b.motion == -1, "Polar coordinates can only be used for motion");
     } else if ((b.present & IJK_WORDS) && (s.motion_mode == G_2 || s.motion_mode == G_3)) {
         b.motion = s.motion_mode;

@@ -116,7 +116,7 @@ int read_arguments(Setup &s, Block &b)
     }
 }
 
-// M98 P<sub> [L<count>], M99: the line is an ordinary one, but it moves the program.
+// M98 P<sub> [L<count>]: the line is an ordinary one, but it moves the program. M99 is like an O word.
 int read_fanuc(Setup &s)
 {
     Block &b = s.block;
@@ -132,20 +132,19 @@ int read_fanuc(Setup &s)
     b.o_type = m98 ? O_M98 : O_M99;
     CHECK(s.disable_fanuc_subs, "DISABLE_FANUC_STYLE_SUB set in INI file, but found %s", m98 ? "m98" : "m99");
     b.o_name.clear();
+    if (!m98) {
+        s.pos += 3;
+        return read_tail(s);
+    }
     TRY(read_words(s));
-    if (!m98) b.m_modes[MM_STOP] = -1;
     TRY(infer_motion(s));
     TRY(check_block(s));
     b.m_modes[MM_STOP] = -1;
     b.motion = -1;
-    if (m98) {
-        CHECK(!b.has('p'), "Found 'm98' code with no P-word");
-        int number;
-        TRY(to_integer(s, b['p'], &number));
-        char buf[16];
-        snprintf(buf, sizeof buf, "%d", number);
-        b.o_name = buf;
-    }
+    CHECK(!b.has('p'), "Found 'm98' code with no P-word");
+    int number;
+    TRY(to_integer(s, b['p'], &number));
+    b.o_name = std::to_string(number);
     return INTERP_OK;
 }
 

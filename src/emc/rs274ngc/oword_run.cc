@@ -98,7 +98,10 @@ int run_sub(Setup &s)
         stop_skipping(s);
         return INTERP_OK;
     }
-    if (program) return INTERP_OK; // a program number
+    if (program) { // a program number
+        CHECK(s.skipping.empty() && s.frame().type == CALL_NGC, "Fanuc 'O....' subroutine must be called with 'M98'");
+        return INTERP_OK;
+    }
     if (!s.skipping.empty()) {
         CHECK(!s.defining.empty(), "Nested subroutine definition");
         return INTERP_OK;
@@ -143,7 +146,7 @@ int run_return_word(Setup &s)
 {
     if (!s.defining.empty()) return INTERP_OK;
     if (s.call_level == 0) FLOW_FAIL("%d: not in a subroutine definition: '%s'", s.sequence_number, s.raw);
-    CHECK(s.frame().type == CALL_M98, "'O.... endsub' or 'O.... return' must follow 'O.... sub' subroutine definition");
+    CHECK(s.frame().type == CALL_M98, "Fanuc 'O....' subroutine definition must end with 'M99'");
     take_return_value(s);
     return run_return(s);
 }
@@ -208,7 +211,7 @@ int go_to_sub(Setup &s, const std::string &name)
 
 int run_m99(Setup &s)
 {
-    CHECK(s.frame().type == CALL_NGC, "Found 'M99' instead of 'O endsub' after 'O sub'");
+    CHECK(s.frame().type == CALL_NGC, "'O.... endsub' or 'O.... return' must follow 'O.... sub' subroutine definition");
     const std::string name = s.frame().sub;
     TRY(run_return(s));
     Frame &caller = s.frame();

@@ -1,0 +1,2 @@
+#!/bin/bash
+PYTHONPATH=.. exec /usr/bin/python3 -B run.py
