@@ -6,7 +6,6 @@ import gettext
 import os
 import sys
 import threading
-import time
 import tkinter as tk
 import traceback
 
@@ -221,7 +220,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
             self.set_maxvel(self.to_machine(units) / 60)
 
     def set_maxvel(self, units_per_s):
-        self.maxvel_quiet_until = time.monotonic() + MAXVEL_QUIET_S
+        self.maxvel_quiet_until = clock.now() + MAXVEL_QUIET_S
         self.command.maxvel(units_per_s)
 
     def step_slider(self, name, direction):
@@ -231,7 +230,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
 
     def set_override(self, name, percent):
         send = {"feedrate": self.command.feedrate, "rapidrate": self.command.rapidrate, "spindlerate": self.command.spindleoverride}
-        self.own_values[name] = (percent, time.monotonic() + 0.5)
+        self.own_values[name] = (percent, clock.now() + 0.5)
         self.vars.put(name, percent)
         send[name](percent / 100.0)
 
@@ -337,13 +336,20 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     # -- offsets ---------------------------------------------------------------------------
 
     def mdi_lines(self, *lines):
-        """Runs MDI lines one after the other and waits for each."""
+        """Runs MDI lines one after the other and waits for each. False when one is refused: task told why."""
         if not self.manual_ok() or not self.ensure_mode(linuxcnc.MODE_MDI):
             return False
         for line in lines:
             self.command.mdi(line)
-            self.command.wait_complete()
+            if self.command.wait_complete() == linuxcnc.RCS_ERROR:
+                return False
         return True
+
+    def after_mdi(self, before):
+        """Back to the mode before; with the axes of a homed machine under control again."""
+        self.ensure_mode(before)
+        if self.all_homed():
+            self.set_motion_teleop(1)
 
     def active_system(self):
         """Number of the coordinate system in force, 1 to 9."""
@@ -390,9 +396,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
                 old = self.stat.g5x_offset[at]
                 undo = [f"G10 L2 P{system} {letter}{self.in_program_units(letter, old)}"]
             done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get().split()[0]} {letter.lower()}[[{value}]*{scale}]")
+        self.after_mdi(before)
         if done:
-            self.ensure_mode(before)
-            self.set_motion_teleop(1)
             self.reload_file(False)
             self.tell_touch_off(letter, place, old, at, tool, undo if old is not None else None)
 
@@ -432,9 +437,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         lines, self.undo_lines = self.undo_lines, None
         if lines:
             before = self.stat.task_mode
-            if self.mdi_lines(*lines):
-                self.ensure_mode(before)
-                self.set_motion_teleop(1)
+            done = self.mdi_lines(*lines)
+            self.after_mdi(before)
+            if done:
                 self.reload_file(False)
             else:
                 self.undo_lines = lines

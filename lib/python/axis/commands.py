@@ -168,6 +168,8 @@ def make(app):
 
         def task_step(*event):
             s.poll()
+            if s.task_state != linuxcnc.STATE_ON:
+                return
             if s.task_mode != linuxcnc.MODE_AUTO or s.interp_state != linuxcnc.INTERP_IDLE:
                 if app.limit_warnings() and s.interp_state == linuxcnc.INTERP_IDLE and not app.accept_limits():
                     return

@@ -3,11 +3,11 @@
 
 import os
 import sys
-import time
 import traceback
 from types import SimpleNamespace
 
 import linuxcnc
+from kerf import clock
 
 from .dro import active_codes, tool_text
 from .jog import position
@@ -89,7 +89,7 @@ class FollowPart:
         self.show_readout()
 
     def follow_overrides(self):
-        now = time.monotonic()
+        now = clock.now()
         for name, value in (("feedrate", self.stat.feedrate), ("rapidrate", self.stat.rapidrate),
                             ("spindlerate", self.stat.spindle[0]["override"])):
             own = self.own_values.get(name)
@@ -121,7 +121,7 @@ class FollowPart:
 
     def follow_offsets(self):
         """FP-134: the preview follows offsets and rotation that were set by hand, once the machine is idle."""
-        if self.stale_since and time.monotonic() - self.stale_since > STALE_S and not self.loading and \
+        if self.stale_since and clock.now() - self.stale_since > STALE_S and not self.loading and \
                 self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.task_mode != linuxcnc.MODE_AUTO:
             self.stale_since = None
             self.refresh_preview()
@@ -177,7 +177,7 @@ class FollowPart:
         still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle)
         if still != self.widget_signs.get("offsets"):
             if "offsets" in self.widget_signs and still[:3] != self.widget_signs["offsets"][:3]:
-                self.stale_since = time.monotonic()
+                self.stale_since = clock.now()
             self.widget_signs["offsets"] = still
             linuxcnc.gui_rot_offsets(*[a + b for a, b in zip(s.g5x_offset[:3], s.g92_offset[:3])])
             self.preview.dirty = True

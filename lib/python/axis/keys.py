@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Keys of the main window. Table: GUI reference, section 11. Entries keep their own keys."""
 
+import re
 import tkinter as tk
 
 MODIFIERS = 1 | 4 | 8 | 32 | 64 | 128      # Shift Control Mod1 ...; NumLock (16) and Lock (2) are allowed
@@ -10,6 +11,8 @@ JOG_KEYS = {                               # keysym -> (place in the jog order, 
     "KP_Down": (1, -1), "KP_Up": (1, 1), "KP_2": (1, -1), "KP_8": (1, 1), "KP_Next": (2, -1), "KP_Prior": (2, 1),
     "KP_3": (2, -1), "KP_9": (2, 1),
 }
+SIGNS = set("0123456789I") | {"grave", "comma", "period", "less", "greater", "semicolon", "apostrophe"}      # with Shift on some keyboards
+FUNCTION_KEY = re.compile("F[0-9]+")
 CHORD = ("Shift_L", "Shift_R", "Control_L", "Control_R", "Alt_L", "Alt_R", "Meta_L", "Meta_R", "Super_L", "Super_R")
 PLAIN = {                                  # without modifiers: key -> command
     "F2": "onoff_clicked", "F4": "next_tab", "F7": "mist_toggle", "F8": "flood_toggle", "F9": "spindle_forward_toggle",
@@ -17,13 +20,14 @@ PLAIN = {                                  # without modifiers: key -> command
     "s": "task_resume", "Escape": "task_stop", "l": "toggle_override_limits", "v": "cycle_view", "Home": "home_joint",
     "End": "touch_off_system", "KP_Home": "home_joint", "KP_End": "touch_off_system",
 }
-MODIFIED = {                               # as Tk names them
+BOUND = {                                  # as Tk names them: exactly these modifiers; Shift does not matter for signs
     "<Shift-Key-B>": "brake_on", "<Shift-Key-R>": "task_reverse", "<Shift-Key-F>": "task_forward",
     "<Control-Key-r>": "reload_file", "<Control-Key-s>": "save_gcode", "<Control-Key-k>": "clear_live_plot",
     "<Control-Key-Home>": "home_all_joints", "<Shift-Key-Home>": "set_axis_offset", "<Control-Key-End>": "touch_off_tool",
     "<Key-exclam>": "toggle_metric", "<Key-at>": "toggle_display_type", "<Key-numbersign>": "toggle_coord_type",
     "<Key-dollar>": "toggle_teleop_mode",
 }
+SHIFT, CONTROL = 1, 4
 
 
 class Keys:
@@ -33,47 +37,60 @@ class Keys:
         self.app = app
         self.held = {}            # keycode -> id of a release that waits for a repeat, or None. Not the
                                   # keysym: with another modifier the release has another one than the press.
+        self.spindle_keys = set() # of the keys that change the spindle's speed, those that are held
         root = app.root
         root.bind("<KeyPress>", self.press)
         root.bind("<KeyRelease>", self.release)
-        root.bind_all("<Key-F1>", lambda event: self.call("estop_clicked"))
-        for sequence, command in MODIFIED.items():
-            root.bind(sequence, lambda event, name=command: self.call(name, event))
+        root.bind_all("<Key-F1>", lambda event: self.call("estop_clicked"))      # whatever else is held
+        for sequence, command in BOUND.items():
+            self.bind(sequence, lambda name=command: self.call(name))
         for sequence, function in (
                 ("<Key-F3>", lambda: app.raise_tab("manual")), ("<Key-F5>", lambda: app.raise_tab("mdi")),
-                ("<Control-Key-Tab>", app.other_tab),
-                ("<Control-Key-e>", app.toggle_panel), ("<Key-Return>", root.focus_set), ("<Key-KP_Enter>", root.focus_set)):
-            root.bind(sequence, lambda event, f=function: self.unless_entry(event, f))
-        root.bind("<Control-Key-space>", lambda event: app.notifications.clear())
-        root.bind("<KeyPress-F11>", lambda event: self.spindle("spindle_decrease"))
-        root.bind("<KeyPress-F12>", lambda event: self.spindle("spindle_increase"))
-        root.bind("<KeyRelease-F11>", lambda event: self.spindle("spindle_constant"))
-        root.bind("<KeyRelease-F12>", lambda event: self.spindle("spindle_constant"))
+                ("<Control-Key-Tab>", app.other_tab), ("<Control-Key-e>", app.toggle_panel),
+                ("<Control-Key-space>", app.notifications.clear), ("<Key-Return>", root.focus_set), ("<Key-KP_Enter>", root.focus_set)):
+            self.bind(sequence, function)
+        for key, command in (("F11", "spindle_decrease"), ("F12", "spindle_increase")):
+            root.bind(f"<KeyPress-{key}>", lambda event, c=command: self.spindle(event, c))
+            root.bind(f"<KeyRelease-{key}>", self.spindle_end)
         root.bind("<FocusOut>", self.focus_out)
 
-    def call(self, name, event=None):
-        if event is not None and self.in_entry(event) and name != "task_stop":
-            return None
+    def bind(self, sequence, function):
+        """The function for exactly these modifiers, and in entries only for keys that are none of theirs."""
+        wanted = (SHIFT if "Shift" in sequence else 0) | (CONTROL if "Control" in sequence else 0)
+        ignored = SHIFT if sequence[5:-1] in ("exclam", "at", "numbersign", "dollar") else 0
+        entries_too = any(key in sequence for key in ("F3", "F5", "Tab", "space"))
+
+        def called(event):
+            if (event.state & MODIFIERS & ~ignored) != wanted or (self.in_entry(event) and not entries_too):
+                return None
+            function()
+            return "break"
+        self.app.root.bind(sequence, called)
+
+    def call(self, name):
+        app = self.app
         if name == "toggle_metric":
-            self.app.vars.metric.set(0 if self.app.vars.metric.get() else 1)
+            app.vars.metric.set(0 if app.vars.metric.get() else 1)
             name = "redraw"
-        self.app.root.tk.call(name)
+        if name not in ("reload_file", "save_gcode") or not app.running():
+            app.root.tk.call(name)
         return "break"
 
-    def spindle(self, name):
-        if self.app.spindle_turns() or name == "spindle_constant":
+    def spindle(self, event, name):
+        if not event.state & MODIFIERS and event.keysym not in self.spindle_keys and self.app.spindle_turns():
+            self.spindle_keys.add(event.keysym)
             self.app.root.tk.call(name)
+        return "break"
+
+    def spindle_end(self, event):
+        if event.keysym in self.spindle_keys:
+            self.spindle_keys.discard(event.keysym)
+            self.app.root.tk.call("spindle_constant")
         return "break"
 
     @staticmethod
     def in_entry(event):
         return isinstance(event.widget, (tk.Entry, tk.Listbox)) or "ombobox" in str(getattr(event.widget, "widgetName", ""))
-
-    def unless_entry(self, event, function):
-        if self.in_entry(event) and event.keysym not in ("F3", "F5", "Tab"):
-            return None
-        function()
-        return "break"
 
     # -- plain keys ------------------------------------------------------------------------
 
@@ -81,8 +98,8 @@ class Keys:
         if event.widget.winfo_toplevel() is not self.app.root:
             return None
         key = event.keysym
-        if self.in_entry(event):
-            return self.call("task_stop") if key == "Escape" else None
+        if self.in_entry(event) and not FUNCTION_KEY.fullmatch(key) and key != "Escape":
+            return None
         code = event.keycode
         if code in self.held:            # auto-repeat: the waiting release was no release
             if self.held[code]:
@@ -90,13 +107,13 @@ class Keys:
                 self.held[code] = None
             return "break"
         if key in JOG_KEYS or key in ("minus", "equal"):
-            if event.state & (MODIFIERS & ~1) or (event.state & 1 and key in ("minus", "equal")):
+            if event.state & (MODIFIERS & ~SHIFT) or (event.state & SHIFT and key in ("minus", "equal")):
                 return None
             self.held[code] = None
-            self.jog(key, code, bool(event.state & 1))
+            self.jog(key, code, bool(event.state & SHIFT))
             return "break"
-        if event.state & MODIFIERS and key not in ("less", "greater", "I"):
-            return None
+        if event.state & MODIFIERS & ~(SHIFT if key in SIGNS else 0):
+            return "break" if key == "F10" else None       # Tk's own F10 opens a menu
         if key in PLAIN:
             return self.call(PLAIN[key])
         return "break" if self.other(key) else None
@@ -134,6 +151,9 @@ class Keys:
                 self.app.root.after_cancel(self.held[code])
             self.let_go(code)
         self.app.jogger.stop_all()
+        if self.spindle_keys:
+            self.spindle_keys.clear()
+            self.app.root.tk.call("spindle_constant")
 
     def other(self, key):
         app = self.app
