@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The tables of the manual: constants, attributes of stat with type and the value of a machine
 # that was just started, methods of command.
-import inspect
+import signal
 
 from mill import *
 
@@ -183,3 +183,22 @@ begin = clock.now()
 print("timed out", c.wait_complete(1.5), round(clock.now() - begin, 2), "default", c.wait_complete(), round(clock.now() - begin, 1))
 c.mdi("G0 X0")
 print("of a later one", c.wait_complete(60), round(clock.now() - begin), c.serial == poll().echo_serial_number, "zero", c.wait_complete(0))
+c.mdi("G4 P1000000")
+print("times that are none:", [c.wait_complete(t) for t in (-1, float("nan"), -1e300, 0)])
+
+
+class Interrupted(Exception):
+    pass
+
+
+def interrupt(*_):
+    raise Interrupted
+
+
+signal.signal(signal.SIGALRM, interrupt)
+signal.setitimer(signal.ITIMER_REAL, 0.2)
+try:
+    print("not interrupted:", c.wait_complete(1e300))
+except Interrupted:
+    print("a signal ends a long wait:", poll().interp_state != INTERP_IDLE)
+c.abort()

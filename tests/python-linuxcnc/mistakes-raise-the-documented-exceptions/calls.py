@@ -78,3 +78,8 @@ call(linuxcnc.vertex9, "XYZ", (1, 2))
 color = (1, 2, 3, 4)
 logger = linuxcnc.positionlogger(linuxcnc.stat(), *[color] * 6, "XYZ")
 print(logger.npts, logger.points(), logger.last(), logger.get_colors() == (color,) * 6)
+for give in (command.text_msg, command.error_msg, command.display_msg, command.mdi):
+    call(give, None)
+    call(give, "\udc80")
+call(command.auto, linuxcnc.AUTO_PAUSE, 2)
+call(command.debug, -1)

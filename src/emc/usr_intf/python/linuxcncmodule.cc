@@ -14,6 +14,7 @@
 #include <fstream>
 
 #include "client.hh"
+#include "kerf_clock.h"
 #include "kerf_paths.h"
 #include "module.hh"
 #include "rcs_print.hh"
@@ -233,13 +234,21 @@ template <class M, class V, V M::*FIELD> void one_value(Command &c, V v) {
     c.give(m);
 }
 
+// Bytes of a str (UTF-8) or bytes object. Raises UnicodeEncodeError for what is no text.
+std::string text_of(const py::handle &o) {
+    if (py::isinstance<py::bytes>(o)) return o.cast<std::string>();
+    Py_ssize_t size = 0;
+    const char *utf8 = PyUnicode_AsUTF8AndSize(o.ptr(), &size);
+    if (!utf8) throw py::error_already_set();
+    return std::string(utf8, static_cast<size_t>(size));
+}
+
 void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
     c.plain<EMC_TASK_PLAN_CLOSE>();
     if (kwargs && kwargs.size() > 0) throw py::type_error("program_open() takes no keyword arguments");
     if (args.size() != 1) throw py::type_error("function takes exactly 1 argument (" + std::to_string(args.size()) + " given)");
-    std::string file;
-    if (py::isinstance<py::str>(args[0])) file = args[0].cast<std::string>();
-    else throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
+    if (!py::isinstance<py::str>(args[0])) throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
+    std::string file = text_of(args[0]);
     if (file.size() >= LINELEN) throw py::value_error("File name limited to 254 characters");
     EMC_TASK_PLAN_OPEN m;
     copy_text(m.file, file.c_str());
@@ -262,9 +271,9 @@ void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
 }
 
 void mdi(Command &c, const py::object &text) {
-    std::string line;
-    if (py::isinstance<py::str>(text) || py::isinstance<py::bytes>(text)) line = text.cast<std::string>();
-    else throw py::type_error("argument 1 must be str or bytes, not " + std::string(Py_TYPE(text.ptr())->tp_name));
+    if (!py::isinstance<py::str>(text) && !py::isinstance<py::bytes>(text))
+        throw py::type_error("argument 1 must be str or bytes, not " + std::string(Py_TYPE(text.ptr())->tp_name));
+    std::string line = text_of(text);
     EMC_TASK_PLAN_EXECUTE m;
     if (line.size() >= sizeof m.command) throw py::value_error("MDI commands limited to 254 characters");
     copy_text(m.command, line.c_str());
@@ -274,6 +283,7 @@ void mdi(Command &c, const py::object &text) {
 void automatic(Command &c, const py::args &a) {
     if (a.size() < 1 || a.size() > 2) throw py::type_error("function takes at least 1 and at most 2 arguments (" + std::to_string(a.size()) + " given)");
     int op = a[0].cast<int>(), line = a.size() > 1 ? a[1].cast<int>() : 0;
+    if (op >= 1 && op <= 5 && a.size() != 1) throw py::type_error("function takes exactly 1 argument (" + std::to_string(a.size()) + " given)");
     if (op == 0 && a.size() == 2) {
         EMC_TASK_PLAN_RUN m;
         m.line = line;
@@ -375,9 +385,9 @@ template <class ON, class OFF> void on_off(Command &c, int on, const char *what)
     else throw py::value_error(what);
 }
 
-template <class M, size_t N> void relay(Command &c, const char *text, char (M::*field)[N]) {
+template <class M, size_t N> void relay(Command &c, const py::str &text, char (M::*field)[N]) {
     M m;
-    copy_text(m.*field, text);
+    copy_text(m.*field, text_of(text).c_str());
     c.give(m);
 }
 
@@ -398,6 +408,24 @@ template <class F> auto checked(F f) {
     };
 }
 
+// Waits at most timeout_s (what is no positive number: looks once), and lets Python's signals through meanwhile.
+int wait_complete(Command &c, double timeout_s) {
+    constexpr double SLICE_S = 0.25, FOR_EVER_S = 1e9;
+    if (!c.client.status_channel().valid()) raise_error("emcStatusBuffer invalid err=" + std::to_string(c.client.status_channel().error_type));
+    double left_s = timeout_s > 0 ? std::min(timeout_s, FOR_EVER_S) : 0;
+    const int64_t end = kerf_clock_now_ns() + static_cast<int64_t>(left_s * 1e9);
+    for (;;) {
+        int result;
+        {
+            py::gil_scoped_release go;
+            result = c.client.wait_done(std::min(left_s, SLICE_S));
+        }
+        left_s = static_cast<double>(end - kerf_clock_now_ns()) * 1e-9;
+        if (result != -1 || left_s <= 0) return result;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+}
+
 void define_command(py::module_ &m) {
     py::class_<Command> cls(m, "command", py::dynamic_attr(), "Commands to the controller; each returns when task has read it");
     cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<Command>(); }));
@@ -411,10 +439,10 @@ void define_command(py::module_ &m) {
             else if (state == 0) { EMC_SPINDLE_BRAKE_RELEASE b; b.spindle = spindle; c.give(b); }
             else throw py::value_error("BRAKE should be BRAKE_ENGAGE or BRAKE_RELEASE");
         }, py::arg("state"), py::arg("spindle") = 0);
-    cls.def("debug", &one_value<EMC_SET_DEBUG, unsigned, &EMC_SET_DEBUG::debug>);
-    cls.def("display_msg", [](Command &c, const char *s) { relay<EMC_OPERATOR_DISPLAY>(c, s, &EMC_OPERATOR_DISPLAY::display); });
-    cls.def("error_msg", [](Command &c, const char *s) { relay<EMC_OPERATOR_ERROR>(c, s, &EMC_OPERATOR_ERROR::error); });
-    cls.def("text_msg", [](Command &c, const char *s) { relay<EMC_OPERATOR_TEXT>(c, s, &EMC_OPERATOR_TEXT::text); });
+    cls.def("debug", [](Command &c, int bits) { one_value<EMC_SET_DEBUG, unsigned, &EMC_SET_DEBUG::debug>(c, static_cast<unsigned>(bits)); });
+    cls.def("display_msg", [](Command &c, const py::str &s) { relay<EMC_OPERATOR_DISPLAY>(c, s, &EMC_OPERATOR_DISPLAY::display); });
+    cls.def("error_msg", [](Command &c, const py::str &s) { relay<EMC_OPERATOR_ERROR>(c, s, &EMC_OPERATOR_ERROR::error); });
+    cls.def("text_msg", [](Command &c, const py::str &s) { relay<EMC_OPERATOR_TEXT>(c, s, &EMC_OPERATOR_TEXT::text); });
     cls.def("feedrate", &one_value<EMC_TRAJ_SET_SCALE, double, &EMC_TRAJ_SET_SCALE::scale>, "Feed override, 1.0 = 100 %");
     cls.def("rapidrate", &one_value<EMC_TRAJ_SET_RAPID_SCALE, double, &EMC_TRAJ_SET_RAPID_SCALE::scale>, "Rapid override, 1.0 = 100 %");
     cls.def("maxvel", &one_value<EMC_TRAJ_SET_MAX_VELOCITY, double, &EMC_TRAJ_SET_MAX_VELOCITY::velocity>, "Cap of the path velocity, machine units/s");
@@ -488,11 +516,7 @@ void define_command(py::module_ &m) {
         s.orientation = orientation;
         c.give(s);
     });
-    cls.def("wait_complete", [](Command &c, double timeout) {
-            if (!c.client.status_channel().valid()) raise_error("emcStatusBuffer invalid err=" + std::to_string(c.client.status_channel().error_type));
-            py::gil_scoped_release go;
-            return c.client.wait_done(timeout);
-        }, py::arg("timeout") = 5.0, "Waits for the last command: RCS_DONE, RCS_ERROR, or -1 after timeout seconds");
+    cls.def("wait_complete", &wait_complete, py::arg("timeout") = 5.0, "Waits for the last command: RCS_DONE, RCS_ERROR, or -1 after timeout seconds");
 }
 
 // ---- error channel ----
