@@ -35,7 +35,7 @@
 #include "kerf_clock.h"
 #include "kerf_instance.h"
 
-#define VCLOCK_KEY 0x4b434c4b
+#define VCLOCK_KEY 0x4b434c4b /* mapped by the instance: kept inside the segment */
 #define VCLOCK_MAGIC 0x76636c6c
 #define START_NS 1000000000 /* a time of 0 means "none" to many */
 #define MAX_PLACES 256
@@ -69,6 +69,7 @@ struct place {
 
 struct vclock {
     uint32_t magic;
+    int key;                    /* tells the instances apart */
     pthread_mutex_t lock;
     _Atomic int64_t now_ns;
     _Atomic uint64_t changes;   /* of any place, by anybody */
@@ -523,28 +524,21 @@ static void forget_after_fork(void)
     mine = -1;
 }
 
-/* At the end of the process: its last acts come before time goes on. The last
- * process removes the segment. */
+/* At the end of the process: its last acts come before time goes on. */
 static void process_end(void)
 {
-    if (mine >= 0) {
-        struct place *p = &clk->places[mine];
-        lock();
-        if (p->lent > 0) {
-            vacate(p);
-        } else {
-            set_state(p, LEAVING);
-        }
-        mine = -1;
-        unlock_and_wake(dispatch(), NULL);
+    if (mine < 0) {
+        return;
     }
-    int handle = kerf_instance_lock("vclock");
-    int id = shmget(kerf_instance_key(VCLOCK_KEY), 0, 0);
-    struct shmid_ds info;
-    if (id >= 0 && shmctl(id, IPC_STAT, &info) == 0 && info.shm_nattch <= 1) {
-        shmctl(id, IPC_RMID, NULL);
+    struct place *p = &clk->places[mine];
+    lock();
+    if (p->lent > 0) {
+        vacate(p);
+    } else {
+        set_state(p, LEAVING);
     }
-    kerf_instance_unlock(handle);
+    mine = -1;
+    unlock_and_wake(dispatch(), NULL);
 }
 
 /* One participant runs at a time: on one CPU the next takes over in microseconds, while
@@ -582,8 +576,9 @@ static void stay_on_cpu(void)
     sched_setaffinity(0, sizeof set, &set); /* not allowed: slower, no worse */
 }
 
-static void segment_init(double pace)
+static void segment_init(int key, double pace)
 {
+    clk->key = key;
     pthread_mutexattr_t attr;
     pthread_mutexattr_init(&attr);
     pthread_mutexattr_setpshared(&attr, PTHREAD_PROCESS_SHARED);
@@ -599,6 +594,50 @@ static void segment_init(double pace)
     clk->magic = VCLOCK_MAGIC;
 }
 
+/* The segment has no key that could outlive its users: it is removed at once, and the
+ * kernel keeps it (as SHM_DEST) until the last process has detached or died. Until then
+ * its id stays valid, and the kernel's own table says which there are. */
+
+/* Attaches the living segment of this instance. NULL: there is none. Instance lock held. */
+static struct vclock *segment_find(int key)
+{
+    struct shm_info totals;
+    int last = shmctl(0, SHM_INFO, (struct shmid_ds *)(void *)&totals);
+    for (int i = 0; i <= last; i++) {
+        struct shmid_ds info;
+        int id = shmctl(i, SHM_STAT, &info);
+        if (id < 0 || !(info.shm_perm.mode & SHM_DEST) || info.shm_segsz != sizeof *clk) {
+            continue;
+        }
+        struct vclock *at = shmat(id, NULL, 0);
+        if (at == (void *)-1) {
+            continue; /* its last user has gone, or it is another user's */
+        }
+        if (at->magic == VCLOCK_MAGIC && at->key == key) {
+            return at;
+        }
+        shmdt(at);
+    }
+    return NULL;
+}
+
+/* Makes the segment; clk is set. 0 or -errno. Instance lock held. */
+static int segment_new(int key, double pace)
+{
+    int id = shmget(IPC_PRIVATE, sizeof *clk, IPC_CREAT | 0600);
+    if (id < 0) {
+        return -errno;
+    }
+    void *at = shmat(id, NULL, 0);
+    int result = at == (void *)-1 ? -errno : 0;
+    shmctl(id, IPC_RMID, NULL);
+    if (result == 0) {
+        clk = at;
+        segment_init(key, pace);
+    }
+    return result;
+}
+
 int vclock_attach(double pace)
 {
     const char *hang = getenv("KERF_CLOCK_HANG_S");
@@ -610,22 +649,9 @@ int vclock_attach(double pace)
         return handle;
     }
     int key = kerf_instance_key(VCLOCK_KEY);
-    int id = shmget(key, 0, 0);
-    struct shmid_ds info;
-    if (id >= 0 && shmctl(id, IPC_STAT, &info) == 0 && info.shm_nattch == 0) {
-        shmctl(id, IPC_RMID, NULL); /* left over from a killed process */
-        id = -1;
-    }
-    if (id < 0) {
-        id = shmget(key, sizeof *clk, IPC_CREAT | 0600);
-    }
-    void *at = id < 0 ? (void *)-1 : shmat(id, NULL, 0);
-    int result = at == (void *)-1 ? -errno : 0;
+    clk = segment_find(key);
+    int result = clk ? 0 : segment_new(key, pace);
     if (result == 0) {
-        clk = at;
-        if (clk->magic != VCLOCK_MAGIC) {
-            segment_init(pace);
-        }
         pthread_key_create(&thread_end, leave_on_thread_end);
         pthread_atfork(NULL, NULL, forget_after_fork);
         atexit(process_end);

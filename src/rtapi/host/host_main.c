@@ -388,7 +388,7 @@ static bool serve(int fd)
  * registry does not name. */
 static int remove_stale(void)
 {
-    static const int keys[] = {0x48414c32 /* HAL */, (int)0x90280a48 /* RTAPI */, 0x4b434c4b /* virtual clock */};
+    static const int keys[] = {0x48414c32 /* HAL */, (int)0x90280a48 /* RTAPI */};
     return rtapi_shmem_remove_stale(keys, sizeof keys / sizeof *keys);
 }
 
