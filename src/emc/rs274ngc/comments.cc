@@ -129,7 +129,7 @@ int execute_comment(Setup &s, std::string_view text)
     } else if (starts(text, "ABORT,")) {
         Output out;
         expand(s, text.substr(6), out);
-        FAIL("%s", out.text);
+        FAIL("%s", out.length ? out.text : "The program ends itself: (ABORT,) without a text");
     } else if (starts(text, "PY,") || starts(text, "PYRUN,")) {
         bool file = starts(text, "PYRUN,");
         std::string code(text.substr(file ? 6 : 3));

@@ -398,6 +398,7 @@ TOOLS = [
     ("M72", "Cannot restore context from invalid stack frame - missing M70/M73?"),
     ("G41.1 D1|M70|G40|G55|M72", "M7x: restore_settings failed executing: 'F0.0 S0 G41 G54 G64 P0.000000 Q0.000000': Cannot change coordinate systems with cutter radius compensation on"),
     ("(abort,stop #<_motion_mode>)", "stop 800.000000"),
+    ("(abort,#<)", "The program ends itself: (ABORT,) without a text"),
 ]
 
 # Not: "Unknown oword number", "Bug: call stack underrun", "found in illegal location", "Found 'M99' instead of 'O endsub'".
