@@ -62,6 +62,15 @@ int check_group0(Setup &s, const Block &b)
     return INTERP_OK;
 }
 
+int check_turns(Setup &s, const Block &b)
+{
+    if (!b.has('p') || !is_one_of(b.motion, {G_2, G_3})) return INTERP_OK;
+    const double whole = rint(b['p']);
+    CHECK(fabs(b['p'] - whole) > 0.001, "P value not an integer with M19 G2 or G3");
+    CHECK(whole < 1, "P value should be 1 or greater with G2 or G3");
+    return INTERP_OK;
+}
+
 // The unused-word checks, in the order of the sheet.
 int check_words(Setup &s, const Block &b)
 {
@@ -109,18 +118,17 @@ int check_words(Setup &s, const Block &b)
                   g0 != G_10 && io != 66 && b.o_type != O_M98,
               "L word with no G10, cutter compensation, canned cycle, digital/analog input, M98 or NURBS code");
     if (b.has('p')) {
-        const double p = b['p'];
         CHECK(!is_one_of(motion, {G_2, G_3, G_5, G_5_2, G_6, G_6_2, G_70, G_74, G_76, G_82, G_84, G_86, G_88, G_89}) &&
                   g0 != G_4 && g0 != G_10 && b.g_modes[GM_CONTROL] != G_64 && !m19 &&
                   !is_one_of(over, {50, 51, 52, 53}) && !(io >= 62 && io <= 66) && b.o_type != O_M98 && !user,
               "P word with no G2 G3 G4 G10 G64 G5 G5.2 G6, G6.2, G76 G82 G86 G88 G89 or M50 M51 M52 M53 M62 M63 "
               "M64 M65 M66 M98 or user M code to use it");
-        if (m19 || motion == G_2 || motion == G_3) {
-            const double whole = rint(p);
-            CHECK(fabs(p - whole) > 0.001, "P value not an integer with M19 G2 or G3");
-            CHECK(m19 && (whole < 0 || whole > 2), "P value must be 0,1,or 2 with M19");
-            CHECK((motion == G_2 || motion == G_3) && whole < 1, "P value should be 1 or greater with G2 or G3");
+        if (m19) {
+            const double whole = rint(b['p']);
+            CHECK(fabs(b['p'] - whole) > 0.001, "P value not an integer with M19 G2 or G3");
+            CHECK(whole < 0 || whole > 2, "P value must be 0,1,or 2 with M19");
         }
+        TRY(check_turns(s, b));
     }
     if (b.has('q') && b['q'] != -1)
         CHECK(!is_one_of(motion, {G_5, G_6, G_6_2, G_73, G_76, G_83}) && !is_g7x(motion) && g0 != G_10 &&
@@ -154,10 +162,10 @@ int check_block(Setup &s)
     Block &b = s.block;
     TRY(check_group0(s, b));
     CHECK(b.m_count > 4, "Too many m codes on line");
-    // Remapped codes define the meaning of their words themselves.
+    // Remapped codes define the meaning of their words themselves; an arc beside one still needs a turn.
     if (s.remaps) {
         for (int m : b.m_modes)
-            if (m >= 0 && s.remaps->m(m)) return INTERP_OK;
+            if (m >= 0 && s.remaps->m(m)) return check_turns(s, b);
         if (b.motion >= 0 && s.remaps->g(b.motion)) return INTERP_OK;
     }
     // Most lines have nothing but axis words, F and a motion.

@@ -21,6 +21,8 @@ def run(program, *remaps):
 r = run("G21 F100\nN10 M400 P5 Q7 (first)\n#1=2\nM400 P[#1] G0 X9\nM2\n", "M400 modalgroup=10 argspec=Pq ngc=my")
 check([p.replace(".000000", "") for p in r.printed] == ["p=5 rl=1 cl=1", "q=7", "p=2 rl=1 cl=1"], r.printed)
 check([v[0] for _, v in r.moves()] == [5, 2, 9], "the rest of the block comes after the handler")
+for p, error in ((0, "P value should be 1 or greater with G2 or G3"), (1.5, "P value not an integer with M19 G2 or G3"), (2, "")):
+    check(run(f"G0 X1 F1\nG3 X1 I-1 M400 P{p}\nM2\n", "M400 modalgroup=10 argspec=p ngc=six").error == error, f"turns of an arc beside a remapped code: {p}")
 r = run("G91 T1 M6 G0 X1\nG0 X1\nM2\n", "M6 modalgroup=6 ngc=six", "T argspec=T ngc=tee")
 names = [n for n, _ in r.calls if n in ("SELECT_TOOL", "CHANGE_TOOL", "STRAIGHT_TRAVERSE")]
 check(r.printed == ["tee 1.000000", "six"] and names == ["SELECT_TOOL", "CHANGE_TOOL"] + ["STRAIGHT_TRAVERSE"] * 3, (r.printed, names))
