@@ -58,8 +58,8 @@ NML::NML(const nml::MessageSet &set, const char *buffer, const char *process, co
     : set_(set), buffer_(buffer, strnlen(buffer, 39)), process_(process, strnlen(process, 39)) {
     std::string path = file ? std::string(file, strnlen(file, 159)) : default_nml_config_file();
     auto c = nml::find_connection(path, buffer_, process_);
-    if (!c) { status = CMS_CONFIG_ERROR; error_type = NML_INVALID_CONFIGURATION; return; }
-    bool master = set_to_master > 0 || (set_to_master == 0 && c->process.master);
+    if (!c) { set_status(CMS_CONFIG_ERROR); return; }
+    master_ = set_to_master > 0 || (set_to_master == 0 && c->process.master);
     if (set_to_server > 0) c->process.server = 1;
     if (set_to_server < 0) c->process.server = 0;
     remote_ = c->process.kind == nml::ProcessKind::remote;
@@ -67,16 +67,41 @@ NML::NML(const nml::MessageSet &set, const char *buffer, const char *process, co
     if (remote_) nap_ns_ = static_cast<int64_t>(std::max(c->buffer.poll_interval, 0.02) * 1e9);
     can_read_ = c->process.read || c->process.server;
     can_write_ = c->process.write || c->process.server;
-    if (c->process.kind == nml::ProcessKind::phantom || c->buffer.kind == nml::BufferKind::phantom) transport_ = nml::open_phantom(*c);
-    else if (c->process.kind == nml::ProcessKind::remote) transport_ = nml::open_tcp(*c, set_);
-    else if (c->buffer.kind == nml::BufferKind::locmem) transport_ = nml::open_local_memory(*c);
-    else transport_ = nml::open_shared_memory(*c, master);
-    set_status(transport_->open_status());
-    if (error_type != NML_NO_ERROR) { transport_.reset(); return; }
-    local_.resize(static_cast<size_t>(std::max(transport_->max_message(), static_cast<long>(sizeof(NMLmsg)))));
+    connection_ = std::make_unique<nml::Connection>(*c);
+    reconnect();
 }
 
 NML::~NML() = default;
+
+void NML::disconnect() {
+    transport_.reset();
+    set_status(CMS_CLOSED);
+}
+
+bool NML::reconnect() {
+    if (!connection_) return false;
+    const nml::Connection &c = *connection_;
+    transport_.reset(); // before the next one: it may be the same place
+    if (c.process.kind == nml::ProcessKind::phantom || c.buffer.kind == nml::BufferKind::phantom) transport_ = nml::open_phantom(c);
+    else if (c.process.kind == nml::ProcessKind::remote) transport_ = nml::open_tcp(c, set_);
+    else if (c.buffer.kind == nml::BufferKind::locmem) transport_ = nml::open_local_memory(c);
+    else transport_ = nml::open_shared_memory(c, master_);
+    set_status(transport_->open_status());
+    if (error_type != NML_NO_ERROR) {
+        transport_.reset();
+        return false;
+    }
+    local_.resize(static_cast<size_t>(std::max(transport_->max_message(), static_cast<long>(sizeof(NMLmsg)))));
+    return true;
+}
+
+std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, double seconds) {
+    for (;;) {
+        auto channel = std::make_unique<NML>(set, buffer, process, file);
+        if (channel->valid() || channel->status == CMS_CONFIG_ERROR) return channel;
+        kerf_clock_sleep_ns(static_cast<int64_t>(seconds * 1e9));
+    }
+}
 
 CMS_STATUS NML::set_status(CMS_STATUS s) {
     status = s;
@@ -208,6 +233,22 @@ long NML::get_space_available() {
     long n = -1;
     if (!valid() || set_status(transport_->space_available(&n)) < 0) return -1;
     return n;
+}
+
+std::vector<nml::Diagnosis> NML::get_diag_info() {
+    std::vector<nml::Diagnosis> all;
+    if (valid()) set_status(transport_->diagnose(&all));
+    return all;
+}
+
+std::string NML::msg2str(const NMLmsg &msg) const {
+    const std::vector<unsigned char> text = nml::encode_message(set_, msg, nml::Coding::disp);
+    return std::string(text.begin(), text.end());
+}
+
+NMLTYPE NML::str2msg(const std::string &text) {
+    const bool good = nml::decode_message(set_, reinterpret_cast<const unsigned char *>(text.data()), text.size(), get_address(), local_.size(), nml::Coding::disp);
+    return good ? get_address()->_type : -1;
 }
 
 int NML::last_writer() const { return transport_ ? transport_->last_writer() : 0; }

@@ -93,6 +93,16 @@ private:
 };
 
 class Transport; // nml_transport.hh
+struct Connection; // nml_config.hh
+
+// What the connections of one number (cnum) have done with a buffer that has the option `diag`.
+struct Diagnosis {
+    int cnum = 0;
+    std::string process; // the last one that connected
+    int pid = 0;
+    int64_t reads = 0, read_bytes = 0, writes = 0, write_bytes = 0; // messages since the buffer was made
+    double last = 0;     // when the last message passed, s of the clock of the computer (CLOCK_MONOTONIC); 0: never
+};
 
 } // namespace nml
 
@@ -127,6 +137,14 @@ public:
     long get_space_available();// bytes; -1 on error
     int last_writer() const;   // process that wrote the last message read from a queue; 0: not known
     int get_msg_count();       // messages written so far; -1 on error
+    // Of all connection numbers that were used; empty: the buffer has no diagnostics, or on error.
+    std::vector<nml::Diagnosis> get_diag_info();
+
+    void disconnect();         // gives the buffer up; valid() is false then
+    bool reconnect();          // connects anew, as the constructor did
+    // A message as text (encoding `disp`), and back: its type, or -1. The text is then the last message read.
+    std::string msg2str(const NMLmsg &msg) const;
+    NMLTYPE str2msg(const std::string &text);
 
     NMLmsg *get_address() { return reinterpret_cast<NMLmsg *>(local_.data()); } // last message read
     template <class T> T *get() { return static_cast<T *>(get_address()); }
@@ -143,6 +161,8 @@ private:
     NMLTYPE finish_read(CMS_STATUS s);
     CMS_STATUS set_status(CMS_STATUS s);
     const nml::MessageSet &set_;
+    std::unique_ptr<nml::Connection> connection_; // null: not found in the file
+    bool master_ = false;
     std::string buffer_, process_;
     std::vector<unsigned char> local_;
     std::unique_ptr<nml::Transport> transport_;
@@ -151,6 +171,8 @@ private:
     int64_t nap_ns_ = 1'000'000; // between the looks of a blocking read
 };
 
+// Tries every `seconds` until the connection is there; never gives up on anything but a wrong file.
+std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, double seconds);
 // File used when the constructor gets a null file. Initially the one of this installation.
 void set_default_nml_config_file(const char *file);
 const char *default_nml_config_file();

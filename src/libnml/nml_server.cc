@@ -24,6 +24,7 @@
 namespace nml {
 
 constexpr size_t MOST_CLIENTS = 200, MOST_UNREAD = 1000000; // connections; bytes of answers that wait
+constexpr size_t MOST_NEWS = 100000; // bytes that wait: a subscriber that is slower misses news
 constexpr int WAKE_MS = 200, PENDING_MS = 5;
 
 static int64_t wall_ns() {
@@ -110,6 +111,46 @@ void Server::try_pending(Client &c) {
     if (reply_read(c, p.serial, buffers_.at({c.port, p.number}), p.access, p.last_id, !late)) p.any = false;
 }
 
+void Server::subscribe(Client &c, int number, uint32_t serial, uint32_t kind, uint32_t period_ms) {
+    if (kind != SUBSCRIBE_POLLED && kind != SUBSCRIBE_VARIABLE) {
+        put_word(c.out, serial);
+        put_word(c.out, 0);
+        return;
+    }
+    c.subscriptions[number] = {serial, kind == SUBSCRIBE_POLLED ? static_cast<int64_t>(std::min(period_ms, 3'600'000u)) * 1'000'000 : 0, 0, 0};
+    put_word(c.out, serial);
+    put_word(c.out, 1);
+}
+
+void Server::send_news(Client &c) {
+    for (auto &[number, s] : c.subscriptions) {
+        const int64_t now = wall_ns();
+        if (now < s.next_ns) continue;
+        Buffer &b = buffers_.at({c.port, number});
+        while (c.out.size() < MOST_NEWS && reply_read(c, s.serial, b, ACCESS_READ, s.last_id, true)) {
+            s.last_id = b.channel->transport()->last_id();
+            s.next_ns = now + s.period_ns;
+            if (s.period_ns > 0 || !b.line.queue) break;
+        }
+    }
+}
+
+void Server::reply_diagnosis(Client &c, uint32_t serial, Buffer &b) {
+    std::vector<Diagnosis> all;
+    const CMS_STATUS s = b.channel->transport()->diagnose(&all);
+    put_word(c.out, serial);
+    put_word(c.out, static_cast<uint32_t>(s));
+    put_word(c.out, static_cast<uint32_t>(all.size()));
+    for (const Diagnosis &d : all) {
+        put_word(c.out, static_cast<uint32_t>(d.cnum));
+        char name[DIAG_NAME_BYTES] = "";
+        strncpy(name, d.process.c_str(), sizeof name - 1);
+        c.out.insert(c.out.end(), name, name + sizeof name);
+        put_word(c.out, static_cast<uint32_t>(d.pid));
+        for (int64_t v : {d.reads, d.read_bytes, d.writes, d.write_bytes, static_cast<int64_t>(d.last * 1e9)}) put_long(c.out, v);
+    }
+}
+
 bool Server::login(Client &c, const unsigned char *data, Buffer &b) {
     std::string problem, name = text_of(data, 16), answer(reinterpret_cast<const char *>(data) + 16, 16), challenge = std::move(c.challenge);
     c.challenge.clear(); // each is good for one answer
@@ -178,7 +219,8 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
             words({serial, good ? 1u : 0u});
             return true;
         }
-    case REQ_SET_SUBSCRIPTION: case REQ_CANCEL_SUBSCRIPTION: words({serial, 0}); return true; // not offered: the client polls
+    case REQ_SET_SUBSCRIPTION: subscribe(c, static_cast<int>(number), serial, w3, w4); return true;
+    case REQ_CANCEL_SUBSCRIPTION: words({serial, static_cast<uint32_t>(c.subscriptions.erase(static_cast<int>(number)))}); return true;
     case REQ_GET_BUF_NAME:
         {
             words({serial, static_cast<uint32_t>(CMS_STATUS_NOT_SET)});
@@ -187,7 +229,8 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
             c.out.insert(c.out.end(), name, name + sizeof name);
             return true;
         }
-    case REQ_SET_DIAG_INFO: return true;
+    case REQ_SET_DIAG_INFO: return true; // the buffer counts by itself
+    case REQ_GET_DIAG_INFO: reply_diagnosis(c, serial, b); return true;
     case REQ_GET_MSG_COUNT: { CMS_STATUS s = t->message_count(&n); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)}); return true; }
     case REQ_GET_QUEUE_LENGTH: { CMS_STATUS s = t->queue_length(&n); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)}); return true; }
     case REQ_GET_SPACE_AVAILABLE: { CMS_STATUS s = t->space_available(&bytes); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(bytes)}); return true; }
@@ -255,7 +298,7 @@ void Server::run(const volatile int *stop) {
         for (auto &l : listeners_) fds.push_back({l.first, POLLIN, 0});
         for (Client &c : clients_) {
             fds.push_back({c.fd, static_cast<short>(POLLIN | (c.out.empty() ? 0 : POLLOUT)), 0});
-            if (c.pending.any) wake = PENDING_MS;
+            if (c.pending.any || !c.subscriptions.empty()) wake = PENDING_MS;
         }
         if (::poll(fds.data(), fds.size(), wake) < 0) continue;
         size_t n = listeners_.size();
@@ -282,6 +325,7 @@ void Server::run(const volatile int *stop) {
                     good = false;
                 }
             }
+            if (good && !c.pending.any) send_news(c);
             if (good && !c.out.empty()) {
                 ssize_t r = send(c.fd, c.out.data(), c.out.size(), MSG_NOSIGNAL);
                 if (r > 0) c.out.erase(c.out.begin(), c.out.begin() + r);

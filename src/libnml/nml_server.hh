@@ -36,6 +36,7 @@ private:
     struct Buffer { NML *channel; BufferLine line; };
     // A read that waits for a message, until `until` (ns of wall time, negative: for ever).
     struct Pending { bool any = false; uint32_t serial = 0, access = 0; int last_id = 0, number = 0; int64_t until = 0; };
+    struct Subscription { uint32_t serial = 0; int64_t period_ns = 0, next_ns = 0; int last_id = 0; };
     struct Client {
         int fd, port, id;
         std::string peer;
@@ -43,10 +44,14 @@ private:
         std::string challenge;
         std::vector<unsigned char> in, out;
         Pending pending;
+        std::map<int, Subscription> subscriptions; // by number of the buffer
     };
     void accept_from(int listener, int port);
     bool login(Client &c, const unsigned char *data, Buffer &b);
     void try_pending(Client &c);
+    void subscribe(Client &c, int number, uint32_t serial, uint32_t kind, uint32_t period_ms);
+    void send_news(Client &c);
+    void reply_diagnosis(Client &c, uint32_t serial, Buffer &b);
     bool consume(Client &c);
     bool answer(Client &c, const unsigned char *head, const unsigned char *data, size_t size);
     bool reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id, bool only_new);

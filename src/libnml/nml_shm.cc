@@ -30,7 +30,7 @@
 namespace nml {
 namespace {
 
-constexpr uint32_t MAGIC = 0x4b4e4d31; // layout 1
+constexpr uint32_t MAGIC = 0x4b4e4d32; // layout 2
 
 struct Book {
     int64_t write_id;     // messages written so far; also the last serial number
@@ -44,27 +44,45 @@ struct Book {
 struct MessageHead { int64_t writer, write_id, size; }; // writer: its process
 static_assert(sizeof(MessageHead) == MESSAGE_HEADER_BYTES);
 
+// Of a connection number; behind the data, when the buffer has the option `diag`.
+struct Usage {
+    char process[16];
+    std::atomic<int32_t> pid;
+    std::atomic<int64_t> reads, read_bytes, writes, write_bytes, last_ns;
+};
+
 struct Segment {
     char name[NAME_BYTES];
     std::atomic<uint32_t> magic;
     uint32_t queue;       // 1: queue
+    int32_t users;        // entries of Usage; 0: no diagnostics
     int64_t capacity;     // bytes of one data slot
     pthread_mutex_t lock;
     std::atomic<uint64_t> seq;
     Book book[2];
-    // data follows: queue: capacity bytes; value: two slots of capacity bytes
+    // data follows: queue: capacity bytes; value: two slots of capacity bytes; then `users` Usages
 };
 
 unsigned char *data_of(Segment *s) { return reinterpret_cast<unsigned char *>(s + 1); }
+size_t data_bytes(bool queue, int64_t capacity) { return static_cast<size_t>(capacity) * (queue ? 1 : 2); }
+Usage *usage_of(Segment *s) { return reinterpret_cast<Usage *>(data_of(s) + data_bytes(s->queue, s->capacity)); }
+size_t segment_bytes(bool queue, int64_t capacity, int users) {
+    return sizeof(Segment) + data_bytes(queue, capacity) + static_cast<size_t>(users) * sizeof(Usage);
+}
+
+int64_t wall_ns() {
+    timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return t.tv_sec * 1'000'000'000LL + t.tv_nsec;
+}
 
 long capacity_of(const BufferLine &b) {
     long bytes = b.size - NAME_BYTES - b.max_procs - (b.queue ? QUEUE_HEADER_BYTES : VALUE_HEADER_BYTES);
     return bytes < 0 ? 0 : (bytes / b.subdivisions) & ~7L;
 }
 
-size_t segment_bytes(const BufferLine &b) {
-    return sizeof(Segment) + static_cast<size_t>(capacity_of(b)) * (b.queue ? 1 : 2);
-}
+int users_of(const BufferLine &b) { return b.diag ? b.max_procs : 0; }
+size_t segment_bytes(const BufferLine &b) { return segment_bytes(b.queue, capacity_of(b), users_of(b)); }
 
 void prepare(Segment *s, const BufferLine &b, bool shared) {
     s->magic = 0;
@@ -78,10 +96,11 @@ void prepare(Segment *s, const BufferLine &b, bool shared) {
     strncpy(s->name, b.name.c_str(), sizeof s->name - 1);
     s->queue = b.queue;
     s->capacity = capacity_of(b);
+    s->users = users_of(b);
     s->seq = 0;
     s->book[0] = Book{};
     s->book[0].end = s->capacity;
-    memset(data_of(s), 0, static_cast<size_t>(s->capacity) * (b.queue ? 1 : 2));
+    memset(data_of(s), 0, segment_bytes(b) - sizeof *s);
     s->magic.store(MAGIC, std::memory_order_release);
 }
 
@@ -131,6 +150,7 @@ public:
         if (serial_offset >= 0) memcpy(to + serial_offset, &serial, sizeof serial);
         b.write_id = next_id;
         commit(b);
+        count(&Usage::writes, &Usage::write_bytes, size);
         if (id) *id = serial;
         return CMS_WRITE_OK;
     }
@@ -171,6 +191,17 @@ public:
         return CMS_READ_OK;
     }
 
+    CMS_STATUS diagnose(std::vector<Diagnosis> *all) override {
+        if (seg_->users <= 0) return CMS_NO_IMPLEMENTATION_ERROR;
+        for (int i = 0; i < seg_->users; i++) {
+            const Usage &u = usage_of(seg_)[i];
+            if (u.pid == 0) continue;
+            all->push_back({i, std::string(u.process, strnlen(u.process, sizeof u.process)), u.pid, u.reads, u.read_bytes, u.writes, u.write_bytes,
+                            static_cast<double>(u.last_ns) * 1e-9});
+        }
+        return CMS_READ_OK;
+    }
+
     int last_id() const override { return static_cast<int>(last_id_); }
     void set_last_id(int id) override { last_id_ = id; }
     int last_writer() const override { return last_writer_; }
@@ -180,7 +211,24 @@ protected:
     Segment *seg_ = nullptr;
     CMS_STATUS open_status_ = CMS_MISC_ERROR;
 
+    // The connection is there: it stands in the diagnostics from now on.
+    void opened() {
+        open_status_ = CMS_STATUS_NOT_SET;
+        if (conn_.process.cnum < 0 || conn_.process.cnum >= seg_->users) return;
+        usage_ = &usage_of(seg_)[conn_.process.cnum];
+        strncpy(usage_->process, conn_.process.name.c_str(), sizeof usage_->process - 1);
+        usage_->pid = getpid();
+    }
+
 private:
+    void count(std::atomic<int64_t> Usage::*messages, std::atomic<int64_t> Usage::*bytes, long size) {
+        if (!usage_) return;
+        usage_->pid.store(getpid(), std::memory_order_relaxed); // a server goes into the background with its connections
+        (usage_->*messages).fetch_add(1, std::memory_order_relaxed);
+        (usage_->*bytes).fetch_add(size, std::memory_order_relaxed);
+        usage_->last_ns.store(wall_ns(), std::memory_order_relaxed);
+    }
+
     // Holds the lock while it lives; status says why it could not be had.
     struct Locked {
         Memory &m;
@@ -256,6 +304,7 @@ private:
             // The mark alone, in place: a reader needs no lock for it, and a write that comes
             // between replaces the message together with its mark.
             if (mark) __atomic_store_n(&seg_->book[s & 1].was_read, 1, __ATOMIC_RELAXED);
+            count(&Usage::reads, &Usage::read_bytes, *size);
             return CMS_READ_OK;
         }
         return CMS_TIMED_OUT;
@@ -274,6 +323,7 @@ private:
         *size = static_cast<long>(head.size);
         last_id_ = head.write_id;
         last_writer_ = static_cast<int>(head.writer);
+        count(&Usage::reads, &Usage::read_bytes, *size);
         if (!remove) return CMS_READ_OK;
         b.length--;
         b.head += taken(head.size);
@@ -313,6 +363,7 @@ private:
 
     int64_t last_id_ = 0;
     int last_writer_ = 0;
+    Usage *usage_ = nullptr; // ours in the diagnostics
 };
 
 class SharedMemory : public Memory {
@@ -352,14 +403,14 @@ public:
         shmid_ds info;
         if (shmctl(id, IPC_STAT, &info) == 0 && info.shm_segsz < sizeof(Segment)) { drop(); open_status_ = CMS_RESOURCE_CONFLICT_ERROR; return; }
         if (seg_->magic.load(std::memory_order_acquire) != MAGIC ||
-            info.shm_segsz < sizeof(Segment) + static_cast<size_t>(seg_->capacity) * (seg_->queue ? 1 : 2)) {
+            info.shm_segsz < segment_bytes(seg_->queue, seg_->capacity, seg_->users)) {
             drop();
             open_status_ = CMS_NO_MASTER_ERROR;
             return;
         }
         if (strncmp(seg_->name, b.name.c_str(), sizeof seg_->name - 1) != 0)
             rcs_print_error("Shared memory buffers %s and %s may conflict. (key=%d(0x%X))\n", b.name.c_str(), seg_->name, b.key, static_cast<unsigned>(b.key));
-        open_status_ = CMS_STATUS_NOT_SET;
+        opened();
     }
     ~SharedMemory() override { drop(); }
 
@@ -388,7 +439,7 @@ public:
         mine_ = memory;
         seg_ = static_cast<Segment *>(mine_.get());
         if (fresh) prepare(seg_, c.buffer, false);
-        open_status_ = CMS_STATUS_NOT_SET;
+        opened();
     }
 private:
     std::shared_ptr<void> mine_;

@@ -72,6 +72,19 @@ public:
         return s;
     }
 
+    CMS_STATUS diagnose(std::vector<Diagnosis> *all) override {
+        unsigned char head[12], r[4 + DIAG_NAME_BYTES + 4 + 5 * 8];
+        CMS_STATUS s = exchange(REQ_GET_DIAG_INFO, 0, 0, {}, head, sizeof head);
+        if (s != CMS_STATUS_NOT_SET) return s;
+        for (uint32_t n = get_word(head + 8); n > 0; n--) {
+            if (!receive(r, sizeof r)) return CMS_TIMED_OUT;
+            const unsigned char *name = r + 4, *v = r + 4 + DIAG_NAME_BYTES;
+            all->push_back({static_cast<int>(get_word(r)), std::string(reinterpret_cast<const char *>(name), strnlen(reinterpret_cast<const char *>(name), DIAG_NAME_BYTES)),
+                            static_cast<int>(get_word(v)), get_long(v + 4), get_long(v + 12), get_long(v + 20), get_long(v + 28), static_cast<double>(get_long(v + 36)) * 1e-9});
+        }
+        return static_cast<CMS_STATUS>(static_cast<int32_t>(get_word(head + 4)));
+    }
+
 private:
     CMS_STATUS number(Request what, int *n) {
         unsigned char r[12];

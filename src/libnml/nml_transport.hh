@@ -28,6 +28,7 @@ public:
     virtual CMS_STATUS queue_length(int *length) = 0;
     virtual CMS_STATUS space_available(long *bytes) = 0;
     virtual CMS_STATUS message_count(int *count) = 0;
+    virtual CMS_STATUS diagnose(std::vector<Diagnosis> *) { return CMS_NO_IMPLEMENTATION_ERROR; }
     // Number of the last message read, as read() compares it; a server sets its client's.
     virtual int last_id() const { return 0; }
     virtual void set_last_id(int) {}

@@ -21,6 +21,7 @@
 #include "nml_config.hh"
 #include "rcs_print.hh"
 #include "task_text.hh"
+#include "timer.hh"
 
 namespace {
 
@@ -221,8 +222,7 @@ void Task::open_journal() {
 void Task::run(const volatile int *stop) {
     enum { MOST_EAGER = 50 }; // cycles in a row without a rest; a program that loops without motion is eager for ever
     int eager = 0;
-    const int64_t period = static_cast<int64_t>(cycle_time_ * 1e9);
-    int64_t next = kerf_clock_now_ns() + period;
+    RCS_TIMER timer(cycle_time_);
     double least = 1e9, most = 0, total = 0;
     unsigned excursions = 0;
     const bool quiet = getenv("QUIET_TASK") != nullptr;
@@ -239,11 +239,9 @@ void Task::run(const volatile int *stop) {
         total += took;
         if (cycle_time_ > 0 && took > 10 * cycle_time_ && ++excursions <= 10 && !quiet) rcs_print("task: main loop took %.6f seconds\n", took);
         eager = eager_ ? eager + 1 : 0;
-        if ((!eager_ || eager >= MOST_EAGER) && period > 0) {
+        if ((!eager_ || eager >= MOST_EAGER) && cycle_time_ > 0) {
             eager = 0;
-            if (now < next) kerf_clock_sleep_until_ns(next);
-            now = kerf_clock_now_ns();
-            while (next <= now) next += period; // an overrun skips whole periods
+            timer.wait(); // an overrun skips whole periods
         }
         io_.cycle();
     }

@@ -437,12 +437,52 @@ static void calls_give_the_documented_results() {
     printf("symbols: %s %s\n", emc_symbol_lookup(124), emc_symbol_lookup(4711));
 }
 
+// Text of a message and back; connections that end and come again; who used a buffer, near and far.
+static void messages_as_text_and_connections() {
+    Master m;
+    static volatile int stop = 0;
+    nml::Server server(emc_messages());
+    for (auto &b : nml::buffers_of(nml_file)) server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
+    if (!server.listen()) { printf("no port\n"); return; }
+    std::thread serving([&] { server.run(&stop); });
+    {
+        nmlForceRemoteConnection();
+        NML far = open_as("emcCommand", "xemc");
+        nmlForceLocalConnection();
+        NML task = open_as("emcCommand", "emc");
+        EMC_TASK_PLAN_EXECUTE mdi;
+        snprintf(mdi.command, sizeof mdi.command, "G0 X1, (\\)");
+        const std::string text = far.msg2str(mdi);
+        printf("%s\nback: %d %s\n", text.c_str(), far.str2msg(text), far.get<EMC_TASK_PLAN_EXECUTE>()->command);
+        printf("cut: %d, none: %d\n", far.str2msg(text.substr(0, 20)), far.str2msg(""));
+        printf("written %d", far.write(mdi));
+        far.disconnect();
+        printf(", disconnected: valid %d write %d status %d", far.valid(), far.write(mdi), far.status);
+        printf(", again %d", far.reconnect());
+        printf(" write %d\n", far.write(mdi));
+        int got = 0;
+        while (task.read() > 0) got++;
+        printf("task got %d\n", got);
+        printf("waited for: %d, a wrong name: %d\n", nmlWaitOpen(emc_messages(), "emcStatus", "emc", nml_file.c_str(), 0.01)->valid(),
+               nmlWaitOpen(emc_messages(), "nowhere", "emc", nml_file.c_str(), 0.01)->valid());
+        for (NML *channel : {&task, &far})
+            for (const nml::Diagnosis &d : channel->get_diag_info())
+                printf("%d %s alive %d: read %lld (%s) written %lld (%s)\n", d.cnum, d.process.c_str(), d.pid == getpid() && d.last > 0, static_cast<long long>(d.reads),
+                       d.read_bytes == d.reads * mdi.size ? "right" : "wrong", static_cast<long long>(d.writes), d.write_bytes == d.writes * mdi.size ? "right" : "wrong");
+        NML status = open_as("emcStatus", "emc");
+        const size_t entries = status.get_diag_info().size();
+        printf("a buffer without: %zu, status %d\n", entries, status.status);
+    }
+    stop = 1;
+    serving.join();
+}
+
 int main(int argc, char **argv) {
     const std::map<std::string, void (*)()> cases = {
         {"queue-keeps-order", queue_keeps_order}, {"error-queue-holds-25", error_queue_holds_25}, {"full-queue-refuses", full_queue_refuses},
         {"status-is-last-value", status_is_last_value}, {"status-is-never-torn", status_is_never_torn},
         {"killed-client-blocks-nobody", killed_client_blocks_nobody}, {"many-clients-lose-nothing", many_clients_lose_nothing},
-        {"tcp-carries-every-message", tcp_carries_every_message}, {"configuration-lines", configuration_lines}, {"garbled", garbled_messages_are_refused_or_whole}, {"calls-give-the-documented-results", calls_give_the_documented_results}};
+        {"tcp-carries-every-message", tcp_carries_every_message}, {"messages-as-text-and-connections", messages_as_text_and_connections}, {"configuration-lines", configuration_lines}, {"garbled", garbled_messages_are_refused_or_whole}, {"calls-give-the-documented-results", calls_give_the_documented_results}};
     auto it = argc > 1 ? cases.find(argv[1]) : cases.end();
     if (it == cases.end()) {
         for (auto &c : cases) printf("%s\n", c.first.c_str());
