@@ -11,27 +11,29 @@
 #define TRACK_SHARE 0.8      /* of the acceleration, for closing an error */
 #define TRACK_CYCLES 8.0     /* time constant near the reference */
 
-void follow_measure(struct follower *f, double revs, double dt)
+int follow_measure(struct follower *f, double revs, double dt)
 {
-    if (!f->running) {
-        f->running = 1;
+    if (!f->cycles) {
+        f->cycles = 1;
         f->revs = revs;
         f->speed = 0;
-        return;
+        return 0;
     }
+    if (f->cycles < FOLLOW_SETTLED) f->cycles++;
     f->revs += f->speed * dt;
     double innovation = revs - f->revs;
-    if (fabs(innovation) > 0.5) { /* another origin of counting: an index or a reset */
+    if (fabs(innovation) > 0.5) {
         f->revs = revs;
-        return;
+        f->origin += innovation;
+        return 1;
     }
     f->revs += FILTER_POSITION * innovation;
     f->speed += FILTER_SPEED * innovation / dt;
+    return 0;
 }
 
 void follow_index(struct follower *f, double revs)
 {
-    f->running = 1;
     f->revs = revs;
 }
 

@@ -10,14 +10,17 @@
 #define KERF_TP_FOLLOW_H
 
 struct follower {
-    int running;      /* the filter has a state */
+    int cycles;       /* measured so far, 0: the filter has no state */
     double revs;      /* estimated position, revolutions */
     double speed;     /* estimated, revolutions/s */
     double origin;    /* position at which the present move's reference is 0 */
 };
 
-/* One cycle of dt seconds: takes the measured position in. */
-void follow_measure(struct follower *f, double revs, double dt);
+#define FOLLOW_SETTLED 60 /* cycles after which the estimate of the speed is good */
+
+/* One cycle of dt seconds: takes the measured position in. Returns 1 where counting has got another origin (an index,
+ * a reset, a lost encoder); a reference that is followed goes on from its place. */
+int follow_measure(struct follower *f, double revs, double dt);
 /* The encoder was reset at its index: position anew, speed kept. */
 void follow_index(struct follower *f, double revs);
 /* Reference of a move of `upr` units a revolution, `lead` seconds from now. */

@@ -12,6 +12,7 @@ struct spin {
     double target, accel; /* rev/s, rev/s^2 */
     double total;         /* revolutions since ever, for phase */
     double counts;        /* per revolution, 0 ideal */
+    int counts_on;        /* the request of an index is answered at once, nothing is reset */
 };
 
 static void spin_cycle(struct spin *s)
@@ -21,6 +22,7 @@ static void spin_cycle(struct spin *s)
     s->speed += fmax(-dv, fmin(dv, s->target - s->speed));
     s->total += s->speed * b.dt;
     s->revs += s->speed * b.dt;
+    if (s->counts_on) sp->spindle_index_enable = 0;
     if (sp->spindle_index_enable && floor(s->total) != floor(before)) {
         s->revs = s->total - floor(s->total); /* counting begins at the index mark */
         sp->spindle_index_enable = 0;
@@ -302,27 +304,24 @@ static void zero_length_moves_are_dropped_and_add_up(void)
     bench_free(&b);
 }
 
-/* Runs a thread of 20 mm at rps; returns z - upr * revolutions at the middle, modulo upr, and the worst error there. */
-static double thread_phase(double rps, double upr, double counts, double *worst_error, double *worst_acc)
+/* Runs a thread of 20 mm with s; returns z - upr * revolutions at the middle, modulo upr, and the worst error there. */
+static double thread_of(struct spin *s, double upr, double *worst_error, double *worst_acc)
 {
-    struct spin s;
     double phase = NAN, low = 1e30, high = -1e30;
-    mill(300, 1000);
-    spin_start(&s, rps);
-    s.counts = counts;
-    for (int i = 0; i < 50; i++) spin_cycle(&s), bench_cycle(&b);
+    for (int i = 0; i < 50; i++) spin_cycle(s), bench_cycle(&b);
     tpSetSpindleSync(&b.tp, 0, upr, 0);
     go(0, 0, -30, 100, EMCMOT_TERM_COND_BLEND, 0);
     send_all();
     *worst_acc = 0;
-    double future = 0;
+    double future = 0, top = 0;
     while (!tpIsDone(&b.tp) && b.cycles < 60000) {
-        spin_cycle(&s);
+        spin_cycle(s);
         bench_cycle(&b);
         double z = -b.p[0][2];
+        top = fmax(top, b.status.current_vel);
         if (z > 15 && z < 25) {
             /* the joint gets there two cycles later */
-            future = s.total + 2 * s.speed * b.dt;
+            future = s->total + 2 * s->speed * b.dt;
             double e = z - upr * future;
             e -= upr * floor(e / upr);
             if (isnan(phase)) phase = e;
@@ -335,10 +334,20 @@ static double thread_phase(double rps, double upr, double counts, double *worst_
     }
     CHECK(tpIsDone(&b.tp), "thread did not end");
     CHECK(b.p[0][2] == -30, "end %g", b.p[0][2]);
+    if (s->counts == 0) CHECK(top < upr * s->speed * 1.03 + 0.1, "%g units/s for a thread of %g", top, upr * s->speed);
     *worst_error = high - low;
     limits_kept();
     bench_free(&b);
     return phase;
+}
+
+static double thread_phase(double rps, double upr, double counts, double *worst_error, double *worst_acc)
+{
+    struct spin s;
+    mill(300, 1000);
+    spin_start(&s, rps);
+    s.counts = counts;
+    return thread_of(&s, upr, worst_error, worst_acc);
 }
 
 static void threads_have_the_same_phase_at_every_speed(void)
@@ -353,6 +362,45 @@ static void threads_have_the_same_phase_at_every_speed(void)
         CHECK(e < 1e-6, "%g rpm: error %g", rpm, e);
         CHECK(a < 1e-3, "%g rpm: acceleration %g", rpm, a);
     }
+}
+
+/* A simulated spindle whose count is never reset and whose request of an index is answered at once. */
+static void an_encoder_that_counts_on_gives_threads_in_phase(void)
+{
+    struct spin s;
+    double e, a, phase[2];
+    for (int k = 0; k < 2; k++) {
+        mill(300, 1000);
+        spin_start(&s, 10);
+        s.counts_on = 1;
+        s.revs = s.total = 1000.2 + 53.45 * k;
+        phase[k] = thread_of(&s, 1.5, &e, &a);
+        CHECK(e < 1e-6, "error %g", e);
+    }
+    e = (phase[1] - phase[0]) / 1.5;
+    CHECK(fabs(e - floor(e + 0.5)) < 1e-4, "phases differ by %g revolutions", e);
+}
+
+static void a_reset_while_a_thread_is_cut_does_no_harm(void)
+{
+    struct spin s;
+    double place = 0, step = 0;
+    mill(300, 1000);
+    spin_start(&s, 10);
+    tpSetSpindleSync(&b.tp, 0, 1, 0);
+    go(0, 0, -30, 100, EMCMOT_TERM_COND_BLEND, 0);
+    send_all();
+    while (!tpIsDone(&b.tp) && b.cycles < 60000) {
+        spin_cycle(&s);
+        if (b.p[0][2] < -10 && s.revs > 0) s.revs = -100;
+        place = b.p[0][2];
+        bench_cycle(&b);
+        if (b.p[0][2] < -5 && b.p[0][2] > -28) step = fmax(step, fabs(b.p[0][2] - place + 0.01));
+    }
+    CHECK(b.p[0][2] == -30, "end %g", b.p[0][2]);
+    CHECK(step < 1e-5, "a step of %g mm in a cycle", step);
+    limits_kept();
+    bench_free(&b);
 }
 
 /* FP-031, beside the acceleration with an ideal encoder above */
@@ -588,6 +636,8 @@ static const struct test_case cases[] = {
     CASE(a_feed_waits_until_spindles_are_at_speed),
     CASE(zero_length_moves_are_dropped_and_add_up),
     CASE_JERK(threads_have_the_same_phase_at_every_speed),
+    CASE_JERK(an_encoder_that_counts_on_gives_threads_in_phase),
+    CASE_JERK(a_reset_while_a_thread_is_cut_does_no_harm),
     CASE_JERK(a_coarse_encoder_gives_bounded_ripple),
     CASE_JERK(chained_threads_keep_phase_and_ignore_override_and_pause),
     CASE_JERK(a_thread_too_fast_for_the_machine_is_refused),
