@@ -29,6 +29,7 @@ install: all $(INSTALL_HOOKS)
 	$(INST) $(PUBLIC) $(DESTDIR)$(prefix)/include/linuxcnc
 	$(INST) configs/common/*.nml $(DESTDIR)$(SHARE)
 	$(call copy_tree,lib/hallib,$(SHARE)/hallib)
+	install -D -m 644 lib/python/kerf/mtconnect/mtconnect-linuxcnc-1.xsd $(DESTDIR)$(SHARE)/mtconnect/mtconnect-linuxcnc-1.xsd
 	$(call copy_tree,nc_files,$(SHARE)/ncfiles)
 	$(call copy_tree,configs,$(DOC)/examples/sample-configs)
 	$(call copy_tree,tcl,$(tcldir))

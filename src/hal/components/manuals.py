@@ -25,7 +25,7 @@ GROUPS = {
     "Gates and bits": """and2 or2 xor2 not logic lut5 maj3 match8 select8 tristate_bit tristate_float flipflop
         bitmerge bitslice bitwise bin2gray gray2bin demux output_buffer""",
     "Buttons, switches and messages": """radiobutton multiswitch toggle toggle2nist momentary2nist multiclick
-        matrix_kb sim_matrix_kb enum debounce dbounce message pushmsg lcd mqtt-publisher reset sample_hold
+        matrix_kb sim_matrix_kb enum debounce dbounce message pushmsg lcd mqtt-publisher mtconnect-agent reset sample_hold
         knob2float updown
         xhc_hb04_util joyhandle hal_input sendkeys hal_bridge panelui""",
     "Safety": "estop_latch safety_latch charge_pump watchdog joint_axis_mapper",

@@ -11,7 +11,6 @@ the prefix. --dryrun prints it instead.
 
 import argparse
 import json
-import socket
 import sys
 import time
 from pathlib import Path
@@ -21,50 +20,17 @@ if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
 import hal
-from kerf import clock
+from kerf import clock, mqtt
 
 NAME = "mqtt-publisher"
 POLL_S = 0.1
-TIMEOUT_S = 5
-# MQTT 3.1.1 packets
-CONNECT, CONNACK, PUBLISH, DISCONNECT = 0x10, 0x20, 0x30, 0xE0
-
-
-def packet(kind, body):
-    length, size = bytearray(), len(body)
-    while True:
-        size, low = divmod(size, 128)
-        length.append(low | (0x80 if size else 0))
-        if not size:
-            return bytes([kind]) + bytes(length) + body
-
-
-def text(word):
-    data = word.encode()
-    return len(data).to_bytes(2, "big") + data
-
-
-def connect_packet(client, user, password):
-    flags = 0x02 | (0x80 if user else 0) | (0x40 if user and password else 0)
-    body = text("MQTT") + bytes([4, flags]) + (60).to_bytes(2, "big") + text(client)
-    return packet(CONNECT, body + (text(user) if user else b"") + (text(password) if user and password else b""))
 
 
 def publish(options, payload):
-    """One message at quality 0, on a connection of its own. Raises OSError."""
-    with socket.create_connection((options.mqtt_broker, options.mqtt_port), TIMEOUT_S) as link:
-        link.settimeout(TIMEOUT_S)
-        link.sendall(connect_packet(NAME, options.mqtt_user, options.mqtt_password))
-        answer = b""
-        while len(answer) < 4:
-            data = link.recv(4 - len(answer))
-            if not data:
-                raise OSError("the broker closed the connection")
-            answer += data
-        if answer[0] != CONNACK or answer[3] != 0:
-            raise OSError(f"the broker refuses the connection (code {answer[3]})")
-        link.sendall(packet(PUBLISH, text(options.mqtt_prefix) + payload.encode()))
-        link.sendall(packet(DISCONNECT, b""))
+    """One message on a connection of its own. Raises OSError."""
+    link = mqtt.Connection(options.mqtt_broker, options.mqtt_port, NAME, options.mqtt_user, options.mqtt_password)
+    link.publish(options.mqtt_prefix, payload)
+    link.close()
 
 
 class Publisher:

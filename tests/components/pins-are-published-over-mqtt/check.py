@@ -5,14 +5,13 @@
 from __future__ import annotations
 
 import json
-import socket
 import sys
 import tempfile
-import threading
 from pathlib import Path
 
-sys.path.insert(0, "..")
+sys.path[:0] = ["..", "../../lib"]
 from harness import Session  # noqa: E402
+from mqtt_broker import Broker  # noqa: E402
 
 TOP = Path("../../..").resolve()
 HALUI = """
@@ -34,41 +33,11 @@ def check(what: str, got: object, want: object) -> None:
         mistakes.append(f"{what}: {got!r}, expected {want!r}")
 
 
-def take(link: socket.socket) -> tuple[int, bytes]:
-    """One packet: kind, body."""
-    def exactly(n: int) -> bytes:
-        data = b""
-        while len(data) < n:
-            more = link.recv(n - len(data))
-            if not more:
-                raise OSError("closed")
-            data += more
-        return data
-    kind, size, shift = exactly(1)[0], 0, 0
-    while True:
-        byte = exactly(1)[0]
-        size |= (byte & 127) << shift
-        shift += 7
-        if byte < 128:
-            return kind, exactly(size)
-
-
-def serve(server: socket.socket, packets: list[tuple[int, bytes]]) -> None:
-    link, _ = server.accept()
-    with link:
-        packets.append(take(link))
-        link.sendall(b"\x20\x02\x00\x00")
-        packets.append(take(link))
-        packets.append(take(link))
-
-
 def main() -> int:
     session = Session("mqtt")
     session.env["PYTHONPATH"] = str(TOP / "lib/python")
-    server, packets = socket.create_server(("127.0.0.1", 0)), []
-    broker = threading.Thread(target=serve, args=(server, packets), daemon=True)
-    broker.start()
-    port = server.getsockname()[1]
+    broker = Broker()
+    packets, port = broker.packets, broker.port
     with tempfile.TemporaryDirectory() as folder:
         def halcmd(*words: str) -> str:
             return session.command(folder, "halcmd", *words)[1].strip()
@@ -82,7 +51,7 @@ def main() -> int:
             halcmd("loadusr", "-Wn", "halui", "/usr/bin/python3", folder + "/halui.py")
             halcmd("loadusr", "-W", "mqtt-publisher", "--mqtt-broker=127.0.0.1", f"--mqtt-port={port}", "--mqtt-user=me",
                    "--mqtt-password=secret", "--mqtt-prefix=shop/mill", "keys=halui.speed,halui.quit,no.such")
-            broker.join(60)
+            broker.thread.join(60)
             check("lastpublish", halcmd("getp", "mqtt-publisher.lastpublish") != "0", True)
             check("period", halcmd("getp", "mqtt-publisher.period"), "10")
             end()
@@ -97,7 +66,7 @@ def main() -> int:
             session.command(folder, "realtime", "stop")
         status, _, errors = session.command(folder, "mqtt-publisher", "pin")
         check("usage", (status, "keys=pin,pin,... is expected, not pin" in errors), (2, True))
-    server.close()
+    broker.server.close()
     print("\n".join(mistakes) or "published")
     return bool(mistakes)
 
