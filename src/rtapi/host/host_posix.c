@@ -3,8 +3,7 @@
  * host_posix.c - back end: POSIX threads that sleep on CLOCK_MONOTONIC.
  *
  * Realtime: SCHED_FIFO with the task's priority on one CPU. Without: SCHED_OTHER,
- * and one mutex lets only one task run at a time, as if one pre-empted the other
- * never: cycles do not interleave.
+ * and tasks take turns, as if one pre-empted the other never: cycles do not interleave.
  * Thread: init, start, stop [init]; the rest in the task [rt]
  */
 #include "host.h"
@@ -19,7 +18,12 @@
 #include <time.h>
 #include "kerf_clock.h"
 
-static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+/* Turns without realtime: first come, first served, so that a task that is always late lets the
+ * others in, and one that is alone catches up without giving its CPU away. */
+static pthread_mutex_t turn_guard = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t turn_changed = PTHREAD_COND_INITIALIZER;
+static unsigned turn_tickets; /* handed out */
+static unsigned turn_serving; /* whose turn it is */
 static int cpu = -1;
 
 #define WAKE_SIGNAL (SIGRTMIN + 1) /* ends the sleep of a task that is deleted */
@@ -115,13 +119,22 @@ static void nothing(struct task *t)
 static void turn_take(struct task *t)
 {
     (void)t;
-    pthread_mutex_lock(&turn);
+    pthread_mutex_lock(&turn_guard);
+    unsigned mine = turn_tickets++;
+    while (mine != turn_serving) {
+        pthread_cond_wait(&turn_changed, &turn_guard);
+    }
+    pthread_mutex_unlock(&turn_guard);
 }
 
 static void turn_give(struct task *t)
 {
     (void)t;
-    pthread_mutex_unlock(&turn);
+    pthread_mutex_lock(&turn_guard);
+    if (++turn_serving != turn_tickets) {
+        pthread_cond_broadcast(&turn_changed);
+    }
+    pthread_mutex_unlock(&turn_guard);
 }
 
 static int64_t now(void)
@@ -146,11 +159,10 @@ static void sleep_in_turn(struct task *t, int64_t when_ns)
     turn_take(t);
 }
 
-/* A late task of many: let the others have the mutex. */
+/* A late task of many: those that wait come first. */
 static void late_in_turn(struct task *t)
 {
     turn_give(t);
-    sched_yield();
     turn_take(t);
 }
 
