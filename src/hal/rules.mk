@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-PUBLIC_HEADERS += src/hal/hal.h
+PUBLIC_HEADERS += src/hal/hal.h src/hal/hostmot2-serial.h
 
 include src/rtapi/sources.mk
 HAL_SOURCES := $(addprefix src/hal/,hal_segment.c hal_index.c hal_recover.c hal_comp.c hal_pin.c \

@@ -5,7 +5,7 @@ scratch=$(mktemp -d)
 inc=$EMC2_HOME/include
 rt="rtapi.h rtapi_app.h rtapi_atomic.h rtapi_bitops.h rtapi_bool.h rtapi_byteorder.h rtapi_ctype.h rtapi_device.h rtapi_errno.h
     rtapi_firmware.h rtapi_gfp.h rtapi_io.h rtapi_limits.h rtapi_list.h rtapi_math.h rtapi_math64.h rtapi_mutex.h rtapi_parport.h
-    rtapi_pci.h rtapi_slab.h rtapi_stdint.h rtapi_string.h rtapi_vsnprintf.h hal.h linuxcnc.h kinematics.h emcmotcfg.h emcpos.h
+    rtapi_pci.h rtapi_slab.h rtapi_stdint.h rtapi_string.h rtapi_vsnprintf.h hal.h hostmot2-serial.h linuxcnc.h kinematics.h emcmotcfg.h emcpos.h
     emcpose.h motion_types.h posemath.h posemath_types.h"
 ul="hal.h rtapi.h rtapi_stdint.h rtapi_math.h linuxcnc.h inifile.h emcpos.h emcpose.h posemath.h motion_types.h"
 cxx="hal.h rtapi.h rtapi_atomic.h linuxcnc.h inifile.hh inifile.h posemath.hh posemath.h emcpos.h"
@@ -37,4 +37,11 @@ gcc -std=gnu11 -DULAPI $common $scratch/use.c && echo "constants"
 for api in "" "-DRTAPI -DULAPI"; do
     echo '#include <hal.h>' | gcc $api -I$inc -fsyntax-only -x c - 2>&1 | grep -q '#error' && echo "refused: ${api:-neither}"
 done
+# Every documented function, with its documented type, in the contexts that have it.
+for api in RTAPI ULAPI; do
+    { echo '#include <stdarg.h>'; echo '#include <signal.h>'; for h in ${rt/rtapi_app.h/}; do echo "#include <$h>"; done; cat signatures.h; } > $scratch/all.c
+    gcc -std=gnu11 -D$api -DUSPACE -fPIC $common $scratch/all.c && echo "documented functions: $api"
+done
+# What a driver of something on a serial channel of a Mesa board is made of.
+gcc $RTFLAGS $common uart-driver.c && echo "serial driver"
 rm -rf $scratch
