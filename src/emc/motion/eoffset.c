@@ -238,7 +238,9 @@ static struct axis_reach offset_room(struct motion *m, int n, double at)
             p.lo = fmin(p.lo, goal);
         }
     }
-    struct axis_reach room = {fmin(0.0, a->min_pos_limit - p.lo), fmax(0.0, a->max_pos_limit - p.hi)};
+    double lo = a->min_pos_limit - p.lo, hi = a->max_pos_limit - p.hi;
+    /* A path that is outside by itself (joints were moved under an offset) needs the offset it has. */
+    struct axis_reach room = {fmin(lo, fmax(0.0, e->curr_pos)), fmax(hi, fmin(0.0, e->curr_pos))};
     return room;
 }
 
