@@ -258,7 +258,10 @@ void TaskCanon::sync_on_after_move() {
 
 void TaskCanon::STRAIGHT_TRAVERSE(int line, const EmcPose &end) {
     flush();
-    EmcPose p = to_absolute(end);
+    traverse_to(line, to_absolute(end));
+}
+
+void TaskCanon::traverse_to(int line, const EmcPose &p) {
     Path v = straight_velocity(p), a = straight_acceleration(p), j = straight_jerk(p);
     EMC_TRAJ_LINEAR_MOVE m;
     m.type = rotary_unlocked_ >= 0 ? EMC_MOTION_TYPE_INDEXROTARY : EMC_MOTION_TYPE_TRAVERSE;
@@ -322,6 +325,19 @@ int TaskCanon::LOCK_ROTARY(int, int) {
     return 0;
 }
 
+// FP-022: a tap runs along the plane's normal. Where its line names a place aside, the tool traverses there first, at the
+// height it has, and back afterwards: for the interpreter the position stays the one before the line.
+bool TaskCanon::beside_the_tap(const EmcPose &end, EmcPose *over) const {
+    constexpr double ROUNDING = 1e-6; // mm
+    double n[3] = {plane_ == CANON_PLANE_YZ ? 1.0 : 0.0, plane_ == CANON_PLANE_XZ ? 1.0 : 0.0, plane_ == CANON_PLANE_XY ? 1.0 : 0.0};
+    rotate(&n[0], &n[1], rotation_);
+    PmCartesian to = end.tran, at = end_.tran;
+    double depth = (to.x - at.x) * n[0] + (to.y - at.y) * n[1] + (to.z - at.z) * n[2];
+    *over = end;
+    over->tran = {to.x - depth * n[0], to.y - depth * n[1], to.z - depth * n[2]};
+    return std::fabs(depth) > ROUNDING && std::hypot(over->tran.x - at.x, over->tran.y - at.y, over->tran.z - at.z) > ROUNDING;
+}
+
 void TaskCanon::RIGID_TAP(int line, double x, double y, double z, double scale) {
     EmcPose p = {};
     p.tran.x = from_program_length(x);
@@ -329,8 +345,17 @@ void TaskCanon::RIGID_TAP(int line, double x, double y, double z, double scale) 
     p.tran.z = from_program_length(z);
     p = offset_pose(p);
     p.a = end_.a; p.b = end_.b; p.c = end_.c; p.u = end_.u; p.v = end_.v; p.w = end_.w;
-    Path v = straight_velocity(p), a = straight_acceleration(p), j = straight_jerk(p);
     flush();
+    EmcPose from = end_, over;
+    bool aside = beside_the_tap(p, &over);
+    EMC_TRAJ_SET_SPINDLESYNC off;
+    off.spindle = sync_.spindle;
+    if (aside) {
+        emit(off);
+        traverse_to(line, over);
+        emit(sync_);
+    }
+    Path v = straight_velocity(p), a = straight_acceleration(p), j = straight_jerk(p);
     EMC_TRAJ_RIGID_TAP m;
     m.pos = to_machine(p);
     m.vel = m.ini_maxvel = path_to_machine(v, v.value);
@@ -338,6 +363,10 @@ void TaskCanon::RIGID_TAP(int line, double x, double y, double z, double scale) 
     m.ini_maxjerk = path_to_machine(j, j.value);
     m.scale = scale;
     if (m.vel != 0 && m.acc != 0) emit_at(m, line);
+    if (aside) {
+        emit(off);
+        traverse_to(line, from);
+    }
 }
 
 void TaskCanon::STRAIGHT_PROBE(int line, const EmcPose &end, unsigned char type) {
@@ -478,6 +507,7 @@ void TaskCanon::START_SPEED_FEED_SYNCH(int spindle, double feed_per_revolution, 
     m.spindle = spindle;
     m.feed_per_revolution = from_program_length(feed_per_revolution) * linear_scale();
     m.velocity_mode = velocity_mode;
+    sync_ = m;
     emit(m);
     sync_spindle_ = spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES ? spindle : 0;
     spindle_[static_cast<size_t>(sync_spindle_)].synched = true;

@@ -226,6 +226,8 @@ private:
     void flush();
     bool linkable(const EmcPose &p) const;
     void chain(int line, const EmcPose &p);
+    void traverse_to(int line, const EmcPose &p);
+    bool beside_the_tap(const EmcPose &end, EmcPose *over) const;
     void machine_move(const EmcPose &machine, double feed);
     void straight_segment(int line, const EmcPose &p, const state_tag_t &tag);
     void arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation, double axis_end, const EmcPose &end);
@@ -263,6 +265,7 @@ private:
     double motion_tolerance_ = 0, naivecam_tolerance_ = 0; // mm
     double linear_feed_ = 0, angular_feed_ = 0;            // mm/s, deg/s; feed mode 1: as given
     int feed_mode_ = 0, feed_spindle_ = 0, sync_spindle_ = 0;
+    EMC_TRAJ_SET_SPINDLESYNC sync_; // as last asked for
     int rotary_unlocked_ = -1;
     std::array<Spindle, EMCMOT_MAX_SPINDLES> spindle_{};
     std::vector<Point> chain_;
