@@ -10,14 +10,22 @@ the chain is replaced by lines and arcs that stay within the tolerance of every 
 import math
 
 
-def _line_distance(p, a, b):
-    """From point p to the segment a-b."""
-    d = [y - x for x, y in zip(a, b)]
-    length = sum(v * v for v in d)
-    t = 0.0 if length == 0 else max(0.0, min(1.0, sum((q - x) * v for q, x, v in zip(p, a, d)) / length))
-    return math.dist(p, [x + t * v for x, v in zip(a, d)])
+def _distances(points, first, last):
+    """Squared distance of each point between first and last to the segment from first to last."""
+    (ax, ay, az), (bx, by, bz) = points[first], points[last]
+    dx, dy, dz = bx - ax, by - ay, bz - az
+    length = dx * dx + dy * dy + dz * dz or 1.0
+    found = []
+    for x, y, z in points[first + 1:last]:
+        x, y, z = x - ax, y - ay, z - az
+        t = (x * dx + y * dy + z * dz) / length
+        t = 0.0 if t < 0 else 1.0 if t > 1 else t
+        x, y, z = x - t * dx, y - t * dy, z - t * dz
+        found.append(x * x + y * y + z * z)
+    return found
 
 
+LONG = 64  # points
 # Plane codes: the axes that the arc turns in, its normal axis and the centre words.
 _PLANES = {17: (0, 1, 2, "IJ"), 18: (2, 0, 1, "KI"), 19: (1, 2, 0, "JK")}
 
@@ -62,27 +70,26 @@ def simplify(points, tolerance, plane=None):
     the chain lies within tolerance of the pieces. plane: 17 18 19 for arcs, None for lines only."""
     pieces = []
 
-    def divide(first, last):
+    todo = [(0, len(points) - 1)]
+    while todo:
+        first, last = todo.pop()
         if last <= first:
-            return
-        chain = points[first:last + 1]
-        worst, at = 0.0, first
-        for n in range(first + 1, last):
-            d = _line_distance(points[n], points[first], points[last])
-            if d > worst:
-                worst, at = d, n
-        if worst <= tolerance:
+            continue
+        squares = _distances(points, first, last)
+        worst = max(squares, default=0.0)
+        if worst <= tolerance * tolerance:
             pieces.append(("line", points[last]))
-            return
-        if plane and len(chain) > 3:
-            arc = _fit_arc(chain, plane, tolerance)
+            continue
+        if plane and last - first >= 3:
+            arc = _fit_arc(points[first:last + 1], plane, tolerance)
             if arc:
                 pieces.append(("arc", points[last]) + arc)
-                return
-        divide(first, at)
-        divide(at, last)
-
-    divide(0, len(points) - 1)
+                continue
+        at = first + 1 + squares.index(worst)
+        if last - first > LONG:  # many teeth of one height: in halves, not one by one
+            middle = (first + last) / 2
+            at = min((first + 1 + n for n, d in enumerate(squares) if d >= 0.9 * worst), key=lambda n: abs(n - middle))
+        todo += [(at, last), (first, at)]
     return pieces
 
 

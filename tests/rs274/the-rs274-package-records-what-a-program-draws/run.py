@@ -148,4 +148,6 @@ w.exactpath()
 w.home()
 w.end()
 check(lines[0] == "G20" and lines[-1] == "M2" and "G64 P0.01" in lines and "G61" in lines and "G18" in lines and len(lines) < 40, lines)
+teeth = [(n / 100, 0., -.1 * (n % 2)) for n in range(5000)]
+check([p[1] for p in simplify(teeth, .001, 18)] == teeth[1:], "thousands of teeth of one height")
 done()
