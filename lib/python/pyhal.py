@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The older interface of Python components: classes halType, pinDir, component, pin, port.
+"""The older interface of Python components: classes halType, pinDir, component, pin, port, signal.
 
 Deprecated: new programs use the module hal, on which this one is built. Whatever HAL
 refuses raises HalException with HAL's negative error number or the rule that was broken.
@@ -106,6 +106,24 @@ class port(pin):
             kerf_clock.sleep(_WAIT_S)
 
 
+class signal:
+    """A signal; `value` reads and writes it while no output pin does (a port's: the size of its queue)."""
+
+    def __init__(self, name, type):
+        self.name, self.type = name, type
+
+    @property
+    def value(self):
+        return hal.get_s(self.name)
+
+    @value.setter
+    def value(self, value):
+        try:
+            hal.set_s(self.name, value)
+        except RuntimeError as e:
+            raise HalException(str(e)) from None
+
+
 class component:
     """A component of this process. `pins` has its pins by name."""
 
@@ -144,6 +162,7 @@ class component:
         """A new signal; it belongs to nobody and stays."""
         if hal.new_sig(name, type):
             raise HalException('failed to create signal "%s"' % name)
+        return signal(name, type)
 
     def sigLink(self, pin_name, sig_name):
         """Links a pin, by its full name, to a signal."""

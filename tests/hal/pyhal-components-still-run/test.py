@@ -28,12 +28,14 @@ c.ready()
 show("ready twice", c.ready)
 show("late", c.pinNew, "late", halType.BIT, pinDir.IN)
 show("component", component, "c")
-c.sigNew("s", halType.PORT)
+s = c.sigNew("s", halType.PORT)
 show("signal", c.sigNew, "s", halType.PORT)
 c.sigLink("c.tx", "s")
 c.sigLink("c.rx", "s")
 show("link", c.sigLink, "c.none", "s")
-pyhal.hal.set_s("s", 10)
+s.value = 10
+show("size again", setattr, s, "value", 20)
+print(type(s) is pyhal.signal, s.name, s.type, s.value)
 for what, f, args in (("write", tx.write, ("abc",)), ("write", tx.write, (b"defghi",)), ("write", tx.write, ("j",)),
                       ("writable", tx.writable, ()), ("readable", rx.readable, ()), ("peek", rx.peek, (2,)),
                       ("read", rx.read, (4,)), ("read", rx.read, (6,)), ("drop", rx.peek_commit, (1,)), ("size", rx.size, ()),

@@ -675,13 +675,22 @@ void hello(Server &server, Connection &c, const Words &words)
     server.log(strf("client '%s' linked", c.client.c_str()));
 }
 
+/* What follows a sub-command: the table says it for SET where both exist; GET takes the first of it. */
+std::string usage(const Sub &s, bool set)
+{
+    std::string text = s.help;
+    if (!set && s.set) text.resize(s.get_args > 0 ? text.find(' ') : 0);
+    return text.empty() ? text : " " + text;
+}
+
 void help(Connection &c, const Words &words)
 {
     const std::string what = words.size() > 1 ? upper(words[1]) : "";
     if (what == "GET" || what == "SET") {
         const bool set = what == "SET";
         for (auto &s : subs)
-            if (set ? s.set : s.get) c.say(strf("  %s %s %s", what.c_str(), s.name, s.help));
+            if (set ? s.set != nullptr : s.get != nullptr)
+                c.say(strf("  %s %s%s", what.c_str(), s.name, usage(s, set).c_str()));
         return;
     }
     static const char *const lines[] = {"HELLO <password> <client name> [protocol version]",
