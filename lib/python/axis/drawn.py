@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The preview without OpenGL: a canvas with a picture that kerf_raster draws in memory.
 
-The still layer is drawn when it or the view changes; what moves is drawn over a copy of it.
+The still layer is drawn when it or the view changes, the plot is added to it as it grows; what
+moves is drawn over a copy of it.
 """
 
 import tkinter as tk
@@ -9,7 +10,7 @@ from tkinter import font as tkfont
 
 import kerf_raster
 import numpy as np
-from kerf.glpath import PLOT_RECORD
+from kerf.glpath import PLOT_TAIL
 
 NOTHING = (0, 0, 0, 0)
 
@@ -32,6 +33,7 @@ class DrawnPicture(tk.Canvas):
         self.layer = self.frame = self.image = None
         self.item = self.create_image(0, 0, anchor="nw")
         self.fonts = {}
+        self.plotted = 0         # points of the plot that are in the still layer
         self.exact = True
 
     def font(self, size):
@@ -48,6 +50,7 @@ class DrawnPicture(tk.Canvas):
     def draw_still(self, scene, matrix, width, height, label_size):
         if self.layer is None or (self.layer.width, self.layer.height) != (width, height):
             self.layer, self.frame = kerf_raster.Raster(width, height), kerf_raster.Raster(width, height)
+        self.plotted = 0
         r = self.layer
         r.clear(rgba(scene.back))
         for item in scene.before:
@@ -69,10 +72,11 @@ class DrawnPicture(tk.Canvas):
         return False
 
     def draw_frame(self, scene, matrix):
-        self.frame.assign(self.layer)
         r = self.frame
-        if scene.plot is not None:
-            self.draw_plot(r, scene)
+        if scene.plot is None:
+            r.assign(self.layer)
+        elif not self.draw_plot(scene):
+            return False
         for item in scene.live:
             self.lines(r, item, matrix)
         self.image = tk.PhotoImage(master=self, data=r.ppm(), format="PPM")
@@ -85,21 +89,17 @@ class DrawnPicture(tk.Canvas):
             self.create_text(x, y, text=text, fill=web(colour), font=self.font(size), anchor="nw", tags="text")
         return True
 
-    def draw_plot(self, raster, scene):
+    def draw_plot(self, scene):
+        """The plot: what will not change any more into the still layer, its end into the frame. False: it was shortened."""
         data, count, second = scene.plot
-        if count < 2:
-            return
-        records = np.frombuffer(data, PLOT_RECORD, count)
-        packed = np.ascontiguousarray(records["c"]).view("u4").reshape(-1)
-        values, kinds = np.unique(packed, return_inverse=True)
-        palette = [tuple(int(b) for b in np.array([v], "u4").view("u1")) for v in values[:255]]
-        for name in ("p", "q") if second else ("p",):
-            raster.draw(np.ascontiguousarray(records[name]), kinds.astype(np.uint8), palette, scene.plot_matrix, 0, count, 2)
-        if second:
-            ends = np.empty((2 * count, 3), np.float32)
-            ends[0::2], ends[1::2] = records["p"], records["q"]
-            piece = np.tile(np.array([0, 1], np.uint8), count)
-            raster.draw(ends, piece, [NOTHING, palette[0]], scene.plot_matrix, 0, 2 * count, 1)
+        if count < self.plotted:
+            return False
+        if count - PLOT_TAIL > self.plotted + 1:
+            self.layer.draw_plot(data, scene.plot_matrix, max(0, self.plotted - 1), count - PLOT_TAIL, bool(second))
+            self.plotted = count - PLOT_TAIL
+        self.frame.assign(self.layer)
+        self.frame.draw_plot(data, scene.plot_matrix, max(0, self.plotted - 1), count, bool(second))
+        return True
 
     def exposed(self):
         return False

@@ -5,7 +5,8 @@ import time
 import gcode
 import numpy as np
 from axis.camera import Camera
-from kerf_raster import Drawing
+from kerf.glpath import PLOT_RECORD
+from kerf_raster import Drawing, Raster
 
 
 def write(name, lines):
@@ -98,3 +99,18 @@ for wrong in ((np.zeros((3, 9)), turn.kinds, turn.lines), (np.zeros((3, 9), np.f
         Drawing(*wrong)
     except ValueError as e:
         print("refused:", e)
+
+# the live plot: drawn in parts as it grows, the picture is that of the whole; a machine that has run for hours costs no more than its end
+records = np.zeros(1000, PLOT_RECORD)
+records["p"] = np.random.default_rng(1).uniform(-1, 1, (1000, 3))
+records["q"] = records["p"] * 0.5
+records["c"] = records["d"] = np.where(np.arange(1000)[:, None] % 3 == 0, (255, 0, 0, 255), (0, 0, 255, 255))
+view = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+for second in (False, True):
+    whole, parts = Raster(300, 200), Raster(300, 200)
+    whole.draw_plot(records.tobytes(), view, 0, 1000, second)
+    for first, last in ((0, 301), (300, 650), (649, 1000)):
+        parts.draw_plot(records.tobytes(), view, first, last, second)
+    # what is drawn later lies above: with a second path only the coloured pixels are compared
+    shown = [np.frombuffer(r.ppm(), np.uint8)[15:].reshape(-1, 3).any(axis=1) for r in (whole, parts)]
+    print("plot in parts:", (shown[0] == shown[1]).all() and shown[0].sum() > 1000, "" if second else whole.ppm() == parts.ppm())

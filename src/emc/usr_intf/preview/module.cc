@@ -57,6 +57,32 @@ void draw(Raster &raster, const py::buffer &points, const py::object &kinds, con
     raster.draw(arrays.path, list, matrix, first, last, width);
 }
 
+// Records of linuxcnc.positionlogger: x y z rgba x y z rgba, 32 bytes; `second`: the other path too, and the wires between both.
+void draw_plot(Raster &raster, const py::bytes &records, const Matrix &matrix, size_t first, size_t last, bool second)
+{
+    constexpr size_t record = 8, half = 4;     // floats
+    std::string_view data = records;
+    auto xyz = reinterpret_cast<const float *>(data.data());
+    auto rgba = reinterpret_cast<const uint8_t *>(data.data()) + 3 * sizeof(float);
+    Path path;
+    path.count = data.size() / (record * sizeof(float));
+    path.stride = record;
+    last = std::min(last, path.count);
+    py::gil_scoped_release release;
+    for (size_t side = 0; side < (second ? 2 : 1); side++) {
+        path.xyz = xyz + side * half;
+        path.rgba = rgba + side * half * sizeof(float);
+        raster.draw(path, {}, matrix, first, last, 2);
+    }
+    path.count = 2;
+    path.stride = half;
+    for (size_t i = first; second && i < last; i++) {
+        path.xyz = xyz + i * record;
+        path.rgba = rgba + i * record * sizeof(float);
+        raster.draw(path, {}, matrix, 0, 2);
+    }
+}
+
 long pick(const py::buffer &points, const py::object &kinds, const Palette &palette, const Matrix &matrix, int width, int height,
           double x, double y, double radius)
 {
@@ -81,6 +107,8 @@ PYBIND11_MODULE(kerf_raster, m)
         .def("clear", [](Raster &r, const std::array<int, 4> &c) { r.clear(colour(c)); }, py::arg("colour"))
         .def("draw", &draw, py::arg("vertices"), py::arg("kinds"), py::arg("palette"), py::arg("matrix"), py::arg("first") = 0,
              py::arg("last") = size_t(-1), py::arg("width") = 1)
+        .def("draw_plot", &draw_plot, py::arg("records"), py::arg("matrix"), py::arg("first"), py::arg("last"), py::arg("second") = false,
+             "Points first to last (exclusive) of linuxcnc.positionlogger.points(), 2 pixels wide.")
         .def("ppm", [](const Raster &r) { return py::bytes(r.ppm()); }, "The picture as a binary PPM file.")
         .def("pixel", [](const Raster &r, int x, int y) {
             Rgba c = r.pixel(x, y);

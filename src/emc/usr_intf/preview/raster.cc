@@ -49,6 +49,19 @@ bool clip_edge(double p, double q, double &t0, double &t1)
     return true;
 }
 
+/// Colour of the piece that ends at vertex i.
+Rgba colour_of(const Path &path, const std::vector<Rgba> &palette, size_t i)
+{
+    if (path.rgba) {
+        const uint8_t *c = path.rgba + i * path.stride * sizeof(float);
+        return {c[0], c[1], c[2], c[3]};
+    }
+    size_t kind = path.kinds ? path.kinds[i] : 0;
+    return kind < palette.size() ? palette[kind] : Rgba{0, 0, 0, 0};
+}
+
+bool same(Rgba a, Rgba b) { return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a; }
+
 /// Square of the distance of a point from a piece.
 double distance2(double px, double py, double x0, double y0, double x1, double y1)
 {
@@ -120,13 +133,12 @@ void Raster::line(double x0, double y0, double x1, double y1, Rgba colour, int l
 void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last, int line_width)
 {
     last = std::min(last, path.count);
-    if (first >= last || palette.empty()) return;
+    if (first >= last) return;
     Window window(w_, h_);
     Clip from = project(matrix, path.xyz + first * path.stride);
     for (size_t i = first + 1; i < last; i++) {
         Clip to = project(matrix, path.xyz + i * path.stride);
-        size_t kind = path.kinds ? path.kinds[i] : 0;
-        Rgba colour = kind < palette.size() ? palette[kind] : Rgba{0, 0, 0, 0};
+        Rgba colour = colour_of(path, palette, i);
         Clip a = from, b = to;
         if (colour.a == 0 || !clip_near(a, b)) {
             from = to;
@@ -134,7 +146,7 @@ void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matr
         }
         double x0 = window.x(a), y0 = window.y(a), x1 = window.x(b), y1 = window.y(b);
         // A piece within one pixel is left to the next that leaves it.
-        if (int(x0) == int(x1) && int(y0) == int(y1) && i + 1 < last && (!path.kinds || path.kinds[i + 1] == kind)) continue;
+        if (int(x0) == int(x1) && int(y0) == int(y1) && i + 1 < last && same(colour, colour_of(path, palette, i + 1))) continue;
         line(x0, y0, x1, y1, colour, line_width);
         from = to;
     }
@@ -150,10 +162,9 @@ long Raster::pick(const Path &path, const std::vector<Rgba> &palette, const Matr
     Clip from = project(matrix, path.xyz);
     for (size_t i = 1; i < path.count; i++) {
         Clip to = project(matrix, path.xyz + i * path.stride);
-        size_t kind = path.kinds ? path.kinds[i] : 0;
         Clip a = from, b = to;
         from = to;
-        if (kind >= palette.size() || palette[kind].a == 0 || !clip_near(a, b)) continue;
+        if (colour_of(path, palette, i).a == 0 || !clip_near(a, b)) continue;
         double d2 = distance2(px, py, window.x(a), window.y(a), window.x(b), window.y(b));
         if (d2 <= best2) {
             best2 = d2;

@@ -23,11 +23,13 @@ using Matrix = std::array<double, 16>;
 
 /// A tool path as runs of vertices. Vertex n ends the piece that begins at n-1; kinds[n] picks its
 /// colour in a palette; alpha 0 draws nothing. `stride`: floats from one vertex to the next (>= 3).
+/// With `rgba` each vertex has its own colour instead, four bytes with the same stride.
 struct Path {
     const float *xyz = nullptr;
     const uint8_t *kinds = nullptr;
     size_t count = 0;
     size_t stride = 3;
+    const uint8_t *rgba = nullptr;
 };
 
 class Raster {
