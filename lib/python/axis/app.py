@@ -17,7 +17,7 @@ from kerf.tree import Tree
 from . import dialogs, program, remote
 from .dro import SYSTEMS
 from .follow import FollowPart
-from .jog import speed
+from .jog import position, speed
 from .opening import OpeningPart
 from .panels import PanelsPart
 from .pins import PinsPart
@@ -205,17 +205,23 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     # -- sliders ---------------------------------------------------------------------------
 
     def slider(self, kind, value, send=True):
+        """Position 0..1 of a speed slider (None: where it is): the speed in the units shown, a minute."""
         v, s = self.vars, self.settings
-        name, shown, top = {"jog": ("jog_slider_val", v.jog_speed, s.max_linear), "ajog": ("ajog_slider_val", v.jog_aspeed, s.max_angular),
-                            "maxvel": ("maxvel_slider_val", v.maxvel_speed, s.max_velocity)}[kind]
+        name, shown, top, start = {
+            "jog": ("jog_slider_val", v.jog_speed, s.max_linear, s.default_linear),
+            "ajog": ("ajog_slider_val", v.jog_aspeed, s.max_angular, s.default_angular),
+            "maxvel": ("maxvel_slider_val", v.maxvel_speed, s.max_velocity, s.max_velocity)}[kind]
         x = float(getattr(v, name).get() if value is None else value)
         if 0 < x < 0.06:
             x = 0.06
-        units = speed(x, top)
+        # the speed of the INI file is that, not the one of the nearest position
+        units = 60 * start if x == position(60 * start, top) else speed(x, top)
+        if x > 0 and kind != "maxvel":
+            units = min(60 * top, max(units, s.min_speed(kind == "ajog")))
         if kind != "ajog":
             units = self.to_display(units)
-        digits = max(0, 3 - len(str(int(units))))
-        shown.set(round(units, digits) if digits else int(round(units)))
+        units = float("%.4g" % units)
+        shown.set(int(units) if units.is_integer() else units)
         if kind == "maxvel" and send:
             self.set_maxvel(self.to_machine(units) / 60)
 
@@ -498,7 +504,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.jogger.guard.start()
         self.activate_ja_widget(self.settings.coordinates[0])
         self.show_title()
-        initial = first_file or os.environ.get("AXIS_OPEN_FILE") or (self.settings.find("DISPLAY", "OPEN_FILE") or "").strip('"')
+        initial = first_file or os.environ.get("AXIS_OPEN_FILE") or self.settings.find("DISPLAY", "OPEN_FILE")
         self.preview.set_view(self.lathe_view() if self.settings.lathe else "p")
         for name in ("feedrate", "rapidrate", "spindlerate"):
             self.set_override(name, 100)
@@ -520,8 +526,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.update()
         self.poll_errors()
         self.wait_for_children(self.postgui)
-        if initial and os.path.isfile(initial):
-            self.root.after(50, lambda: self.open_file_guts(initial))
+        demo = initial is None
+        if demo:
+            initial = os.path.join(os.path.dirname(__file__), "demo-lathe.ngc" if self.settings.lathe else "demo-mill.ngc")
+        initial = self.beside_ini(initial.strip('"'))
+        if os.path.isfile(initial):          # OPEN_FILE = "" is none
+            self.root.after(50, lambda: self.open_file_guts(initial, addrecent=not demo))
 
     # What other programs ask for (remote.py).
 

@@ -24,7 +24,9 @@ def position(value, top):
     """Slider position of a speed in units a minute, rounded to 1/200."""
     if value <= 0 or top <= 0:
         return 0.0
-    return min(1.0, max(0.0, round(-200 / (math.log(value / (60 * top)) - 1)) / 200))
+    if value >= 60 * top:
+        return 1.0
+    return round(-200 / (math.log(value / (60 * top)) - 1)) / 200
 
 
 GUARD_S = 0.05
