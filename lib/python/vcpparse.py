@@ -7,6 +7,7 @@
 Mistakes in the file end the program (SystemExit) with a text that names file and line.
 """
 
+import inspect
 import os
 import tkinter
 import tkinter.constants
@@ -85,6 +86,15 @@ def attribute(text):
     return text
 
 
+def numbers(make, options):
+    """The options with numbers where the widget wants numbers: they may stand in quotes, like Tk's own."""
+    for name, parameter in inspect.signature(make).parameters.items():
+        if type(parameter.default) in (int, float) and isinstance(options.get(name), str):
+            value = float(options[name])
+            options[name] = int(value) if value.is_integer() else value
+    return options
+
+
 class Builder:
     """Makes the widgets of a file and of those it includes."""
 
@@ -127,7 +137,7 @@ class Builder:
                              f"{', '.join(sorted(pyvcp_widgets.ELEMENTS))}")
         options = self.options(element)
         try:
-            widget = make(master, self.panel, **options)
+            widget = make(master, self.panel, **numbers(make, options))
         except SystemExit:
             raise
         except Exception as error:

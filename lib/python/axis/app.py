@@ -56,7 +56,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.prefs = Preferences()
         self.vars = Variables(root)
         self.translate = gettext.translation("linuxcnc", Tree.find().locale, fallback=True).gettext
-        self.jog_invert = self.settings.jog_invert()
+        self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
         self.loaded_file = self.shown_file = None
         self.is_filtered = self.loading = self.cancel_loading = False
         self.disk_state = None
@@ -280,6 +280,14 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     # -- selection -------------------------------------------------------------------------
 
     def activate_ja_widget(self, name, force=False):
+        """Selects a letter or joint (text), or a place (number) in COORDINATES or among the joints; force: whatever goes on."""
+        if not isinstance(name, str):
+            if not force and not self.manual_ok():
+                return
+            names = [str(j) for j in range(self.settings.joints)] if self.joints_shown else self.settings.coordinates
+            if not 0 <= name < len(names):
+                return
+            name = names[name]
         self.vars.ja_rbutton.set(str(name).lower())
         self.show_selected()
 
@@ -290,7 +298,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
 
     def jog_target(self, place):
         """Letter or joint number of a jog key."""
-        order = self.settings.jog_order()
+        order = self.jog_order
         if self.joints_shown and not self.settings.lathe:
             return str(place) if place < self.settings.joints else None
         return order[place].lower() if place < len(order) else None
@@ -516,8 +524,11 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
                 self.notifications.add("error", f"[DISPLAY]TKPKG = {words}: {error}")
         for path in self.ini.findall("DISPLAY", "TKAPP") or []:
             self.root.tk.call("source", path)
+        if self.prefs.damaged:
+            self.notifications.add("error", self.translate("The preferences were damaged: they begin anew. The old file is %s") % self.prefs.damaged)
         self.hide_unconnected()
         self.run_user_file()
+        self.fill_windows()
         self.finish_pins()
         self.start_tabs()
         self.command.teleop_enable(0)

@@ -179,6 +179,7 @@ class FollowPart:
             if "offsets" in self.widget_signs and still[:3] != self.widget_signs["offsets"][:3]:
                 self.stale_since = clock.now()
             self.widget_signs["offsets"] = still
+            self.user["current_tool"] = s.tool_table[0] if s.tool_in_spindle > 0 else None
             linuxcnc.gui_rot_offsets(*[a + b for a, b in zip(s.g5x_offset[:3], s.g92_offset[:3])])
             self.preview.dirty = True
         self.widget_signs["readout"] = key

@@ -107,8 +107,8 @@ class Jogger:
 
     # -- starting and stopping -------------------------------------------------------------
 
-    def start(self, owner, selected, direction, fast=False):
-        """Begins a jog of a letter or joint; returns True when it was sent."""
+    def start(self, owner, selected, direction, fast=False, speed=None):
+        """Begins a jog of a letter or joint; returns True when it was sent. speed: units a second, None: that of the slider."""
         app = self.app
         if owner in self.running or not app.jog_allowed():
             return False
@@ -117,7 +117,7 @@ class Jogger:
         if any(what == (joint_mode, number) for what in self.running.values()):
             return False
         app.set_motion_teleop(0 if joint_mode else 1)
-        speed = direction * self.speed_of(number, joint_mode, fast)
+        speed = direction * (self.speed_of(number, joint_mode, fast) if speed is None else speed)
         distance = self.distance()
         if distance:
             if app.stat.state != linuxcnc.RCS_DONE:

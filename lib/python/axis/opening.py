@@ -71,6 +71,7 @@ class OpeningPart:
         """Task, text and preview take the same program; a change on disk meanwhile is told."""
         c = self.command
         self.disk_state = self.state_on_disk()
+        self.user["loaded_file"] = self.loaded_file
         if self.manual_ok():
             self.ensure_mode(linuxcnc.MODE_MANUAL)
         c.task_plan_synch()

@@ -12,17 +12,24 @@ MAX_RECENT = 10
 class Preferences:
     """Values by name; a missing one is written with its default when first asked for.
 
-    A damaged file is kept beside the new one as .axis_preferences.bad.
+    A damaged file is kept beside the new one as .axis_preferences.bad; `damaged` says so then, else None.
     """
 
     def __init__(self, path=None):
         self.path = Path(path) if path else Path.home() / ".axis_preferences"
-        self.values = configparser.RawConfigParser()
+        self.values, self.damaged = configparser.RawConfigParser(), None
         try:
             self.values.read(self.path)
         except (configparser.Error, UnicodeDecodeError):
             self.values = configparser.RawConfigParser()
-            os.replace(self.path, self.path.with_name(self.path.name + ".bad"))
+            self.damaged = self.path.with_name(self.path.name + ".bad")
+        except OSError as e:
+            print(f"axis: {self.path}: {e.strerror}")
+        try:
+            if self.damaged:
+                os.replace(self.path, self.damaged)
+        except OSError as e:
+            print(f"axis: {self.path}: {e.strerror}")
 
     def getpref(self, option, default=False, kind=bool):
         """Value of an option as `kind` (bool, float, int, str; repr: a Python literal)."""

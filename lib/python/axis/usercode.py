@@ -1,8 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The user's code: ~/.axisrc or [DISPLAY]USER_COMMAND_FILE."""
 
+import glob
+import math
 import os
+import re
+import shutil
+import string
+import subprocess
 import sys
+import time
 import tkinter as tk
 import traceback
 from types import SimpleNamespace
@@ -12,7 +19,7 @@ import linuxcnc
 
 from . import dialogs
 from . import help as help_texts
-from .settings import LETTERS
+from .settings import LETTERS, N_
 from .touchoff import Checker
 
 
@@ -36,6 +43,8 @@ class UserPart:
             dialogs.ask(self.root, self.translate("Error in ~/.axisrc"),
                         self.translate("The error given below occurred in your ~/.axisrc; AXIS goes on without the rest of it."),
                         "error", 0, self.translate("OK"), extra=text)
+        self.jog_invert = str(self.user.get("jog_invert", "")).upper()       # may be set there
+        self.jog_order = [c for c in str(self.user.get("jog_order", "")).upper() if c in self.settings.axes]
 
     def user_names(self):
         """What the user's code finds in its globals."""
@@ -44,17 +53,18 @@ class UserPart:
                      linuxcnc=linuxcnc, live_plotter=SimpleNamespace(logger=self.logger, clear=self.preview.clear_plot),
                      notifications=self.notifications, ap=self.prefs, help1=help_texts.help1, help2=help_texts.help2,
                      trajcoordinates=self.settings.coordinates.lower(), num_joints=self.settings.joints, lathe=int(self.settings.lathe),
-                     foam=int(self.settings.foam), jog_order="".join(self.settings.jog_order()), jog_invert=self.jog_invert,
+                     foam=int(self.settings.foam), jog_order="".join(self.jog_order), jog_invert=self.jog_invert,
                      loaded_file=self.loaded_file, current_tool=None, set_feedrate=lambda n: self.set_override("feedrate", int(n)),
                      set_rapidrate=lambda n: self.set_override("rapidrate", int(n)), get_jog_speed=self.get_jog_speed,
                      jog_on=self.jog_on, jog_off=self.jog_off, running=self.running, manual_ok=self.manual_ok,
                      ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, prompt_touchoff=self.prompt_touchoff, all_homed=self.all_homed, go_home=self.go_home,
                      set_motion_teleop=self.set_motion_teleop, activate_ja_widget=self.activate_ja_widget,
-                     open_file_guts=self.open_file_guts, reload_file=self.reload_file, rClicker=lambda event: None,
+                     open_file_guts=self.open_file_guts, reload_file=self.reload_file, rClicker=self.right_click_menu,
                      user_live_update=lambda: None, user_hal_pins=lambda: None, tabs_mdi=".pane.top.tabs.fmdi",
                      tabs_manual=".pane.top.tabs.fmanual", tabs_preview=".pane.top.right.fpreview",
                      tabs_numbers=".pane.top.right.fnumbers", pane_top=".pane.top", pane_bottom=".pane.bottom", _=self.translate,
-                     nf_dialog=self.nf_dialog, tk=tk, Tkinter=tk, os=os, sys=sys)
+                     nf_dialog=self.nf_dialog, tk=tk, Tkinter=tk, tkinter=tk)
+        names |= {module.__name__: module for module in (glob, math, os, re, shutil, string, subprocess, sys, time, traceback)}
         names["__name__"] = "axis"
         return names
 
@@ -62,13 +72,26 @@ class UserPart:
         return self.jogger.speed_of(int(number), self.jogger.joint_mode())
 
     def jog_on(self, number, speed_now):
-        """Jogs an axis (or joint) number; a number of a joint or an axis as the mode has it."""
-        joint_mode = self.jogger.joint_mode()
-        name = str(number) if joint_mode else LETTERS[int(number)]
-        self.jogger.start(f"user {number}", name, 1 if speed_now > 0 else -1)
+        """Jogs a letter or a number, which is that of a joint or of an axis as the mode has it; machine units a second."""
+        if isinstance(number, str) and not number.isdigit():
+            name = number
+        else:
+            name = str(number) if self.jogger.joint_mode() else LETTERS[int(number)]
+        self.jogger.start(f"user {number}", name, 1 if speed_now > 0 else -1, speed=abs(speed_now))
 
     def jog_off(self, number):
         self.jogger.stop(f"user {number}")
+
+    def right_click_menu(self, event):
+        """Cut, copy and paste for a text or an entry."""
+        widget = event.widget
+        menu = tk.Menu(self.root, tearoff=0)
+        for text, what in ((N_("Cut"), "<<Cut>>"), (N_("Copy"), "<<Copy>>"), (N_("Paste"), "<<Paste>>")):
+            menu.add_command(label=self.translate(text), command=lambda w=what: widget.event_generate(w))
+        widget.focus_set()
+        menu.tk_popup(event.x_root, event.y_root)
+        menu.bind("<Unmap>", lambda e: menu.after_idle(menu.destroy))
+        return "break"
 
     def prompt_float(self, title, text, default, unit):
         """(value, None) or (None, None) when cancelled."""

@@ -244,7 +244,6 @@ class WindowPart(LooksPart):
                 continue
             grid.add_radiobutton(label=text, variable="grid_size", value=inches, command=f"set_grid_size {inches!r}")
         self.show_recent()
-        self.fill_windows()
 
     def joint_label(self, j, identity, letters):
         """Text of a joint in the homing menus; None where a letter belongs to several joints."""

@@ -5,8 +5,8 @@ import sys
 import traceback
 from tkinter import filedialog
 
-import linuxcnc
 import operator_lib as lib
+from operator_checks import disagreement, still_jogging, work
 from axis import commands, dialogs
 
 SEED = int(os.environ.get("SEED", "20"))
@@ -145,56 +145,6 @@ def menu_entries(root):
                 if label != "Quit":
                     found.append((menu, i, label))
     return found
-
-
-def still_jogging(op):
-    """A joint that moves in manual mode although no key is held (homing and its like come to their own end)."""
-    op.wait(1.5)
-    s = op.stat
-    if s.task_mode != linuxcnc.MODE_MANUAL or s.task_state != linuxcnc.STATE_ON or any(j["homing"] for j in s.joint[:3]):
-        return None
-    if op.app.jogger.running:
-        return f"jogs without an owner's key: {op.app.jogger.running}"
-    before = s.actual_position
-    op.wait(0.3)
-    s = op.stat
-    if s.task_mode == linuxcnc.MODE_MANUAL and not any(j["homing"] for j in s.joint[:3]) and \
-            any(abs(a - b) > 1e-3 for a, b in zip(before, s.actual_position)):
-        return "moves although nobody asks for it"
-    return None
-
-
-def disagreement(op):
-    app, s, v = op.app, op.stat, op.app.vars
-    pairs = {"task_state": s.task_state, "task_mode": s.task_mode, "interp_state": s.interp_state, "spindledir": s.spindle[0]["direction"],
-             "flood": bool(s.flood), "mist": bool(s.mist), "feedrate": round(100 * s.feedrate), "rapidrate": round(100 * s.rapidrate),
-             "task_paused": int(s.task_paused), "optional_stop": int(s.optional_stop), "block_delete": int(s.block_delete)}
-    for name, value in pairs.items():
-        if getattr(v, name).get() != value:
-            yield f"{name}: screen {getattr(v, name).get()!r}, machine {value!r}"
-    on, idle = s.task_state == linuxcnc.STATE_ON, s.interp_state == linuxcnc.INTERP_IDLE
-    op.root.update()
-    for path, wanted in ((".toolbar.program_run", on and idle), (".toolbar.program_stop", on and not idle),
-                         (".toolbar.machine_power", s.task_state != linuxcnc.STATE_ESTOP), (".pane.top.tabs.fmanual.jogf.jog.jogplus", on and idle)):
-        if op.enabled(path) != wanted:
-            yield f"{path}: enabled {op.enabled(path)}, should be {wanted}"
-
-
-def work(op):
-    """Ends what goes on, powers on and homes."""
-    op.key("Escape")
-    op.wait(1.0)
-    s = op.stat
-    if s.task_state == linuxcnc.STATE_ESTOP:
-        op.key("F1")
-        op.wait(0.3)
-    if op.stat.task_state != linuxcnc.STATE_ON:
-        op.key("F2")
-        op.wait(0.5)
-    op.key("F3")
-    if not op.app.all_homed():
-        op.key("Home", state=4)
-        op.wait(8.0)
 
 
 lib.run(script)

@@ -8,6 +8,7 @@ run() { # size language
     cat machine/transcript
     grep -i -A8 traceback screen.err
 }
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = ""|'
 run 1024x600 de
 run 3840x2160 fr
 rm -rf machine home screen.log screen.err

@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+# Keys that the X server sends (xdotool): jogs with modifiers, a lost focus, then keys in any order; seeded.
+import os
+import random
+import subprocess
+import sys
+
+import linuxcnc
+import operator_lib as lib
+from axis import dialogs
+from operator_checks import disagreement, still_jogging, work
+from tkinter import filedialog
+
+SEED, STEPS = int(os.environ.get("SEED", "7")), int(os.environ.get("STEPS", "70"))
+KEYS = ("F3 F4 F5 F7 F8 F9 F10 F11 b o r t p s Escape v d x y z i c 1 5 0 exclam at numbersign comma period semicolon Home End Return minus "
+        "shift+Left ctrl+r ctrl+k ctrl+Home shift+Home ctrl+space ctrl+Tab alt+p space Tab Left Right Up Down Next KP_Left KP_8 r s t p").split()
+HELD = "Left Right Up Down Next Prior minus equal KP_6 shift Shift_R".split()
+
+
+def x(*words):
+    subprocess.run(["xdotool", *words], check=True)
+
+
+def script(op):
+    sys.stdout = open("transcript", "w", buffering=1)
+    app, root = op.app, op.root
+    filedialog.askopenfilename = filedialog.asksaveasfilename = lambda **more: ""
+    dialogs.ask = lambda root, title, text, icon, default, *buttons, **more: len(buttons) - 1
+
+    def cancelled(dialog, focus=None):
+        dialog.window.destroy()
+    dialogs.Touchoff.wait = cancelled
+    root.focus_force()
+    op.wait(0.1)
+
+    def moves():
+        op.wait(0.3)
+        return any(abs(j["velocity"]) > 0 for j in op.stat.joint[:3])
+
+    def rests():
+        op.wait(0.8)
+        return not any(abs(j["velocity"]) > 0 for j in op.stat.joint[:3]) and not app.jogger.running
+    for key in ("F1", "F2"):
+        x("key", key)
+        op.wait(0.3)
+    x("key", "ctrl+Home")
+    op.until(app.all_homed, "homing by ctrl+Home")
+    op.wait(0.2)
+    print("on and homed:", op.stat.task_state == linuxcnc.STATE_ON)
+    for name, down, up in (("Right", ["Right"], ["Right"]), ("shift and Left, shift first", ["shift", "Left"], ["shift", "Left"]),
+                           ("two axes", ["Up", "Right"], ["Right", "Up"]), ("keypad", ["KP_Left"], ["KP_Left"]), ("minus", ["minus"], ["minus"])):
+        for key in down:
+            x("keydown", key)
+        moving = moves()
+        x("keyup", up[0])
+        if name.startswith("shift"):
+            stopped = rests()            # a jog does not outlive a part of its chord
+        for key in up[1:]:
+            x("keyup", key)
+        print(f"{name}: moves {moving}, rests {stopped if name.startswith('shift') else rests()}")
+    x("keydown", "Left")
+    moving = moves()
+    other = lib.tk.Toplevel(root)
+    other.geometry("+600+300")
+    root.update()
+    other.focus_force()
+    print("held, another window takes the keyboard: moves", moving, "rests", rests())
+    x("keyup", "Left")
+    other.destroy()
+    root.focus_force()
+    op.wait(0.2)
+    print("after it: rests", rests())
+
+    rng, held, faults = random.Random(SEED), [], 0
+    for step in range(STEPS):
+        if rng.random() < 0.3 and len(held) < 3:
+            held.append(rng.choice(HELD))
+            x("keydown", held[-1])
+        elif held and rng.random() < 0.5:
+            x("keyup", held.pop(rng.randrange(len(held))))
+        else:
+            x("key", rng.choice(KEYS))
+        op.wait(rng.choice((0.02, 0.1, 0.3)))
+        if step % 15 == 14:
+            for key in held:
+                x("keyup", key)
+            held.clear()
+            op.wait(0.3)
+            for wrong in (still_jogging(op), *disagreement(op)):
+                if wrong:
+                    faults += 1
+                    print("step", step, wrong)
+            root.tk.call("tk::MenuUnpost", "")
+            root.focus_force()
+            work(op)
+    print("steps:", STEPS, "faults:", faults)
+    sys.stdout = sys.__stdout__
+
+
+lib.run(script)
