@@ -68,6 +68,7 @@ with hand.answers("no"):
     hand.click(buttons["SaveFile"])
 with hand.answers("cancel"):
     hand.click(buttons["Quit"])
+print("FP-186: asked, still open, edited:", bool(root.winfo_exists()), window.table.modified, window.table.rows[0].get("Z"))
 hand.click(buttons["ReRead"])
 print(status(), window.table.modified)
 many = Table("tool.tbl")

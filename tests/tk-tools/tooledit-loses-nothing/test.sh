@@ -1,5 +1,5 @@
 #!/bin/bash
-# FP-082: what tooledit does not show stays in the file; the file is replaced whole; wrong cells are not saved.
+# FP-082, FP-186 (edits are asked for at the end): what tooledit does not show stays in the file; the file is replaced whole; wrong cells are not saved.
 export HOME=$PWD
 export PYTHONPATH="$TEST_DIR/../../lib:$PYTHONPATH"
 printf '%s\n' '; my tools' 'T1 P1 Z0.511 D0.125 ;1/8 end mill' '' 'T2 P2 X0.50 Z+0.1 D.0625 K3 ;1/16 end mill' 'T3 P3 Zabc D0.2 ;bad' \

@@ -1,0 +1,2 @@
+#!/bin/bash
+PYTHONPATH="../../../lib/python:$PYTHONPATH" /usr/bin/python3 -B damage.py
