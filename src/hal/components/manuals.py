@@ -50,6 +50,7 @@ GROUPS = {
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
     "Sensors": "max31855 thermistor",
+    "Devices on Modbus": "mb2hal",
 }
 TITLE = re.compile(r"^= \S+\((\d)\)$", re.M)
 SUMMARY = re.compile(r"^== NAME\s+(\S+) - (.*)$", re.M)

@@ -11,3 +11,8 @@ $(eval $(call script,hal_bridge,src/hal/user_comps/hal_bridge.py))
 $(eval $(call script,moveoff_gui,src/hal/user_comps/moveoff_gui.py))
 $(eval $(call script,panelui,src/hal/user_comps/panelui.py))
 $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
+
+# Programs in C++.
+ifeq ($(HAVE_LIBMODBUS),yes)
+$(eval $(call program,mb2hal,src/hal/user_comps/mb2hal/mb2hal.cc src/hal/user_comps/mb2hal/config.cc,linuxcnchal linuxcncini $(LIBMODBUS_LIBS) -lpthread,$(LIBMODBUS_CFLAGS) -Isrc/emc/ini))
+endif
