@@ -37,21 +37,23 @@ FF1 = 1
 FF2 = 0
 DEADBAND = 0
 MIN_HARD_LIMIT = -11
-MIN_HARD_LIMIT_RELEASE = -10.9
+MIN_HARD_LIMIT_RELEASE = -12
 MAX_HARD_LIMIT = 11
-MAX_HARD_LIMIT_RELEASE = 10.9
+MAX_HARD_LIMIT_RELEASE = 12
 HOME_SW_MIN = 0.5
 HOME_SW_MAX = 0.7
 """
 
 
-def machine(name, hal, letters="XYZ", kins=None, extra="", joint_extra="", home=(0, 0, 0), base=0, spindles=1, motmod=""):
-    """One folder with NAME.ini; hal: lines of [HAL]; home: offset, search and latch velocity of every joint."""
+def machine(name, hal, letters="XYZ", kins=None, extra="", joint_extra="", home=(0, 0, 0), base=0, spindles=1, motmod="",
+            sequences=None):
+    """One folder with NAME.ini; hal: lines of [HAL]; home: offset, search and latch velocity of every joint, or of each."""
     folder = Path(name)
     folder.mkdir()
-    joints = "".join(JOINT.format(n=n, offset=home[0], search=home[1], latch=home[2],
-                                  sequence=0 if home[1] == 0 else 1 + n) + joint_extra
-                     for n in range(len(letters)))
+    homes = home if isinstance(home[0], tuple) else (home,) * len(letters)
+    joints = "".join(JOINT.format(n=n, offset=offset, search=search, latch=latch,
+                                  sequence=sequences[n] if sequences else 0 if search == 0 else 1 + n) + joint_extra
+                     for n, (offset, search, latch) in enumerate(homes))
     axes = "".join(AXIS.format(letter=letter) for letter in dict.fromkeys(letters))
     (folder / f"{name}.ini").write_text(f"""[EMC]
 VERSION = 1.1
@@ -105,6 +107,16 @@ for twopass in ("", "TWOPASS = on\n"):
             kins="trivkins coordinates=xyyz kinstype=both", spindles=3, motmod=" num_spindles=3")
 machine("qtplasma", SIM + "HALFILE = LIB:qtplasmac_comp.hal", "XYYZ", kins="trivkins coordinates=xyyz kinstype=both", spindles=3, motmod=" num_spindles=3")
 machine("servo", "HALFILE = LIB:servo_sim.hal", joint_extra=SERVO, home=(0.5, 1, -0.1), base=50000, kins="trivkins")
+machine("gantry", "HALFILE = LIB:gantrysim.hal\nHALFILE = LIB:simulated-gantry-home.hal", "XYZY", kins="trivkins coordinates=xyzy kinstype=both",
+        home=((-0.1, -1, 0.1), (-0.1, -1, 0.1), (0.1, 1, -0.1), (-0.1, -1, 0.1)), sequences=(2, -3, 1, -3))
+machine("tripod", "HALFILE = LIB:tripodsim.hal", kins="tripodkins")
+Path("tripod/connect-only").touch()      # their kinematics can not reach the part
+machine("lathe", "HALFILE = LIB:core_sim.hal\nHALFILE = LIB:lathe.hal\nHALFILE = LIB:simulated_home.hal\nHALFILE = LIB:check_xyz_constraints.hal",
+        kins="trivkins", base=50000, home=(0, 2, -0.2))
+machine("ldelta", "HALFILE = LIB:sim_ldelta.hal\nHALFILE = LIB:axis_manualtoolchange.hal", "XYZA", kins="lineardeltakins")
+Path("ldelta/connect-only").touch()
+machine("rdelta", "HALFILE = LIB:sim_rdelta.hal", "XYZABCUVW", kins="rotarydeltakins")
+Path("rdelta/connect-only").touch()
 machine("show", SIM + "HALFILE = LIB:var_show.tcl")
 machine("check", "HALFILE = LIB:core_sim.hal\nHALFILE = LIB:simulated_home.hal\nHALFILE = loose.hal\nHALFILE = LIB:halcheck.tcl nopopup",
         kins="trivkins", base=50000)
