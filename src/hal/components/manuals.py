@@ -49,6 +49,7 @@ GROUPS = {
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
+    "Hardware": "hal_parport",
     "Sensors": "max31855 thermistor",
     "Devices on Modbus": "mb2hal",
 }

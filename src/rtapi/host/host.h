@@ -102,6 +102,9 @@ void host_root_begin(void);
 void host_root_end(void);
 /* Memory, limits, latency of the CPU: for realtime. [init] */
 void host_realtime_setup(void);
+
+/* [init] Asks for the right to use I/O ports, before any thread exists; see host_io_errno. */
+void host_io_setup(void);
 /* The CPU for all tasks, or -1 for any. Tells once when none is isolated. */
 int host_cpu(void);
 /* Whether this process may use I/O ports; 0, or the errno of iopl. */

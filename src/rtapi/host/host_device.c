@@ -156,12 +156,6 @@ int rtapi_parport_get(const char *module_name, rtapi_parport_t *port, unsigned s
     unsigned found_base = 0, found_hi = 0;
     int n = -1;
     *port = (rtapi_parport_t){.base = base, .base_hi = base_hi, .fd = -1};
-    if (host_io_errno() == EPERM || host_io_errno() == EACCES) {
-        rtapi_print_msg(RTAPI_MSG_ERR,
-                        "iopl() failed: %s\ncannot gain I/O privileges - missing CAP_SYS_RAWIO or using secure boot? - "
-                        "parallel port access is not allowed\n",
-                        strerror(host_io_errno()));
-    }
     if (base < LINUX_PORTS) {
         if (!linux_port(base, &found_base, &found_hi)) {
             rtapi_print_msg(RTAPI_MSG_ERR, "Linux parallel port %d not found\n", base);
@@ -174,6 +168,13 @@ int rtapi_parport_get(const char *module_name, rtapi_parport_t *port, unsigned s
                 n = i;
             }
         }
+    }
+    if (host_io_errno()) {
+        rtapi_print_msg(RTAPI_MSG_ERR,
+                        "iopl() failed: %s\ncannot gain I/O privileges - missing CAP_SYS_RAWIO or using secure boot? - "
+                        "parallel port access is not allowed\n",
+                        strerror(host_io_errno()));
+        return -host_io_errno();
     }
     if (n < 0) {
         rtapi_print_msg(RTAPI_MSG_ERR,

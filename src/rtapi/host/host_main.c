@@ -413,6 +413,7 @@ static void daemon_main(int listener)
     const struct rtapi_backend_ops *backend = host_backend_choose();
     bool realtime = backend->warn_late;
     int signals = host_signals_init(realtime);
+    host_io_setup();
     if (realtime) {
         host_realtime_setup();
     }

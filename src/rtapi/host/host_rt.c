@@ -324,13 +324,19 @@ static void heap_prefault(void)
     }
 }
 
+void host_io_setup(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    host_root_begin();
+    io_errno = iopl(3) == 0 ? 0 : errno; /* inherited by threads; told when a driver asks */
+    host_root_end();
+#endif
+}
+
 void host_realtime_setup(void)
 {
     struct rlimit memlock;
     host_root_begin();
-#if defined(__x86_64__) || defined(__i386__)
-    io_errno = iopl(3) == 0 ? 0 : errno; /* inherited by threads; told when a driver asks */
-#endif
     limit_unlimited(RLIMIT_RTPRIO);
     limit_unlimited(RLIMIT_CORE);
     prctl(PR_SET_DUMPABLE, 1);
@@ -375,8 +381,8 @@ static void on_fatal(int sig)
 {
     signal(sig, SIG_DFL);
     say("rtapi_app: ", signal_name(sig), " - aborting\n");
-    if (sig == SIGSEGV && io_errno == EPERM) {
-        say("rtapi_app: (this process has no I/O port privilege: CAP_SYS_RAWIO is missing or secure boot is on)\n",
+    if (sig == SIGSEGV && io_errno != 0) {
+        say("rtapi_app: (this process has no I/O port privilege: it is not root, CAP_SYS_RAWIO is missing, or secure boot is on)\n",
             "", "");
     }
     abort();
