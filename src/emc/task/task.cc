@@ -29,6 +29,7 @@ constexpr double CHANNEL_RETRY_S = 1.0, CHANNEL_PATIENCE_S = 10.0;
 constexpr size_t MESSAGES_MOST = 1000; // to the operator, while nobody reads them
 constexpr int64_t MOTION_PATIENCE_NS = 60'000'000'000; // wall time
 constexpr int64_t MS = 1'000'000;
+constexpr int STARTUP_STEPS = 1000; // of the startup code: messages, and ms of waiting
 
 // A pin, else a signal, else a parameter of that name as a number.
 bool hal_number(const char *name, double *value) {
@@ -194,6 +195,13 @@ bool Task::start() {
     motion_.unhome(-2);
     motion_.set_mode(EMC_TRAJ_MODE_FREE);
     update_motion();
+    // What the startup code asked for is in force before the first command, which would clear the list.
+    for (int i = 0; i < STARTUP_STEPS && !idle(); i++) {
+        const bool waits = stat_.task.execState != EMC_TASK_EXEC_DONE;
+        execute();
+        if (waits && stat_.task.execState != EMC_TASK_EXEC_DONE) kerf_clock_sleep_ns(MS);
+        update_motion();
+    }
     open_journal();
     publish();
     return true;
