@@ -148,7 +148,16 @@ class Composer:
         for place, text, name, box in labels:
             at = self.camera.pixel(place, w, h)
             if at and -50 < at[0] < w + 50 and -50 < at[1] < h + 50:
-                c.labels.append((*at, text, self.colour(name), box))
+                c.labels.append((*self.free_place(at, text), text, self.colour(name), box))
+
+    def free_place(self, at, text):
+        """The place of a label: a line below or above where another one is there already."""
+        x, y = at
+        width = 0.61 * self.text_px
+        for free in (y, y + self.text_px, y - self.text_px):
+            if not any(abs(x - ox) < width * (len(text) + len(other)) / 2 and abs(free - oy) < self.text_px for ox, oy, other, *_ in self.scene.labels):
+                return x, free
+        return at
 
     def offset(self):
         """Work offset and G92 in inches, X Y Z."""

@@ -10,7 +10,9 @@ $(foreach s,mdi schedrmt linuxcnclcd axis-remote pyvcp mtconnect-agent,$(eval $(
 $(eval $(call program,tool_watch,src/emc/usr_intf/tool_watch.cc $(CLIENT_SOURCES),nml linuxcncini tooldata linuxcnchal, \
     -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
 
-.PHONY: bench-clients
+.PHONY: bench-clients bench-preview
 bench-clients: all
 	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/clients_bench.py'
-BENCHES += bench-clients
+bench-preview: all
+	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/preview_bench.py'
+BENCHES += bench-clients bench-preview
