@@ -11,8 +11,12 @@ $(eval $(call script,hal_bridge,src/hal/user_comps/hal_bridge.py))
 $(eval $(call script,moveoff_gui,src/hal/user_comps/moveoff_gui.py))
 $(eval $(call script,panelui,src/hal/user_comps/panelui.py))
 $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
+$(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 
 # Programs in C++.
 ifeq ($(HAVE_LIBMODBUS),yes)
 $(eval $(call program,mb2hal,src/hal/user_comps/mb2hal/mb2hal.cc src/hal/user_comps/mb2hal/config.cc,linuxcnchal linuxcncini $(LIBMODBUS_LIBS) -lpthread,$(LIBMODBUS_CFLAGS) -Isrc/emc/ini))
+endif
+ifeq ($(HAVE_LIBUSB10),yes)
+$(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini))
 endif

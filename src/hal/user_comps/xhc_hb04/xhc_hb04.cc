@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// xhc_hb04.cc - xhc-hb04: a wireless pendant with wheel, buttons and display as HAL pins (libusb).
+// Source: sheet of USB drivers, section 8. Without -H the events are printed.
+#include <libusb.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+#include "hal.h"
+#include "pendant.hh"
+
+namespace xhc {
+
+namespace {
+
+constexpr uint16_t VENDOR = 0x10CE, PRODUCT = 0xEB70;
+constexpr unsigned WAIT_MS = 30, SEND_MS = 100;
+constexpr uint8_t DEFAULT_ENDPOINT = 0x81;
+constexpr double MAX_WAIT_SECS = 10, SEARCH_S = 1, AFTER_LOSS_S = 5, STILL_S = 0.25;
+
+using Clock = std::chrono::steady_clock;
+
+std::atomic<bool> ending{false};
+
+void on_signal(int) { ending = true; }
+
+double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// Returns early when the program ends.
+void pause(double seconds) {
+    for (auto begin = Clock::now(); !ending && since(begin) < seconds;) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+// ---- USB ----
+
+class Usb {
+public:
+    ~Usb() {
+        close();
+        if (context_) libusb_exit(context_);
+    }
+
+    /// False without a device, or without the right to open it (told once).
+    bool open() {
+        if (!context_ && libusb_init(&context_) != 0) return false;
+        handle_ = libusb_open_device_with_vid_pid(context_, VENDOR, PRODUCT);
+        if (!handle_) return false;
+        libusb_set_auto_detach_kernel_driver(handle_, 1);
+        int result = libusb_claim_interface(handle_, 0);
+        if (result != 0) {
+            if (!told_) fprintf(stderr, "xhc-hb04: the pendant cannot be used: %s\n", libusb_error_name(result));
+            told_ = true;
+            libusb_close(handle_);
+            handle_ = nullptr;
+            return false;
+        }
+        endpoint_ = endpoint();
+        return true;
+    }
+
+    void close() {
+        if (!handle_) return;
+        libusb_release_interface(handle_, 0);
+        libusb_close(handle_);
+        handle_ = nullptr;
+    }
+
+    enum class Got { nothing, report, lost };
+
+    Got read(Report &report) {
+        uint8_t data[64];
+        int size = 0;
+        int result = libusb_interrupt_transfer(handle_, endpoint_, data, sizeof data, &size, WAIT_MS);
+        if (result == LIBUSB_ERROR_TIMEOUT || result == LIBUSB_ERROR_INTERRUPTED) return Got::nothing;
+        if (result != 0) return Got::lost;
+        return parse(data, size, report) ? Got::report : Got::nothing;
+    }
+
+    bool show(const Shown &shown) {
+        for (auto &block : image(shown)) {
+            int sent = libusb_control_transfer(handle_, 0x21, 0x09, 0x0306, 0, block.data(), BLOCK_SIZE, SEND_MS);
+            if (sent == LIBUSB_ERROR_NO_DEVICE || sent == LIBUSB_ERROR_IO) return false;
+        }
+        return true;
+    }
+
+private:
+    uint8_t endpoint() {
+        libusb_config_descriptor *config = nullptr;
+        uint8_t found = DEFAULT_ENDPOINT;
+        if (libusb_get_active_config_descriptor(libusb_get_device(handle_), &config) != 0) return found;
+        if (config->bNumInterfaces > 0 && config->interface[0].num_altsetting > 0) {
+            const libusb_interface_descriptor &first = config->interface[0].altsetting[0];
+            for (int n = 0; n < first.bNumEndpoints; n++)
+                if (first.endpoint[n].bEndpointAddress & LIBUSB_ENDPOINT_IN) {
+                    found = first.endpoint[n].bEndpointAddress;
+                    break;
+                }
+        }
+        libusb_free_config_descriptor(config);
+        return found;
+    }
+
+    libusb_context *context_ = nullptr;
+    libusb_device_handle *handle_ = nullptr;
+    uint8_t endpoint_ = DEFAULT_ENDPOINT;
+    bool told_ = false;
+};
+
+// ---- HAL ----
+
+struct AxisPins {
+    hal_float_t *pos_absolute, *pos_relative;
+    hal_bit_t *zero, *goto_zero, *half, *enable, *plus, *minus;
+};
+
+struct Pins {
+    AxisPins axis[4];
+    hal_float_t *feed_value, *feed_override, *spindle_rps, *spindle_override;
+    hal_bit_t *sleeping, *connected, *require_pendant, *stepsize_up, *stepsize_down, *inch_icon;
+    hal_s32_t *stepsize, *counts, *counts_neg;
+    hal_bit_t *enable_off, *enable_feed, *enable_spindle;
+    hal_float_t *scale, *velocity, *max_velocity, *increment;
+    hal_bit_t *button[32];
+};
+
+struct Options {
+    std::string layout;
+    bool hal = false, require = false;
+    int sequence = 1;
+};
+
+class Program {
+public:
+    Program(const Options &options, std::vector<Button> buttons) : options_(options), buttons_(std::move(buttons)), steps_(step_sequence(options.sequence)) {}
+
+    int run() {
+        if (options_.hal && !make_pins()) return 1;
+        if (options_.hal && !options_.require) hal_ready(component_);
+        int status = work();
+        if (options_.hal) hal_exit(component_);
+        return status;
+    }
+
+private:
+    int work() {
+        auto begin = Clock::now();
+        bool ready = !options_.require, sought = false;
+        while (!ending) {
+            if (!usb_.open()) {
+                if (options_.require && since(begin) > MAX_WAIT_SECS) {
+                    fprintf(stderr, "xhc-hb04: MAX_WAIT_SECS exceeded, exiting\n");
+                    return 1;
+                }
+                if (!sought) printf("xhc-hb04: waiting for the pendant\n"), fflush(stdout);
+                sought = true;
+                for (auto look = Clock::now(); !ending && since(look) < SEARCH_S;) {
+                    select_step(); // the pins work without a pendant, too
+                    pause(WAIT_MS * 1e-3);
+                }
+                continue;
+            }
+            sought = false;
+            step_ = 0;
+            if (options_.hal) {
+                *pins_->connected = true;
+                if (!ready) hal_ready(component_);
+                ready = true;
+            } else {
+                printf("connected\n"), fflush(stdout);
+            }
+            serve();
+            usb_.close();
+            release();
+            if (ending) break;
+            fprintf(stderr, "xhc-hb04: the pendant is lost\n");
+            if (options_.require) return 1;
+            pause(AFTER_LOSS_S);
+        }
+        return 0;
+    }
+
+    void serve() {
+        while (!ending) {
+            Report report;
+            Usb::Got got = usb_.read(report);
+            if (got == Usb::Got::lost) return;
+            if (got == Usb::Got::report) {
+                last_ = report;
+                if (options_.hal) take(report);
+                else print(report);
+            }
+            if (!options_.hal) continue;
+            wheel(got == Usb::Got::report ? report.wheel : 0);
+            select_step();
+            if (!usb_.show(shown())) return;
+        }
+    }
+
+    static void print(const Report &r) {
+        printf("button %02x rotary %02x wheel %d%s\n", static_cast<unsigned>(r.button), static_cast<unsigned>(r.rotary), r.wheel, r.sleeping ? " sleeping" : "");
+        fflush(stdout);
+    }
+
+    /// Buttons and the rotary.
+    void take(const Report &r) {
+        Pins &p = *pins_;
+        *p.sleeping = r.sleeping;
+        int selected = axis_of(r.rotary);
+        for (size_t n = 0; n < buttons_.size(); n++) *p.button[n] = r.button == buttons_[n].code;
+        for (int n = 0; n < 4; n++) {
+            AxisPins &a = p.axis[n];
+            *a.enable = n == selected;
+            if (n != selected) *a.plus = *a.minus = false;
+            if (a.zero) *a.zero = n == selected && pressed(r, "button-zero");
+            if (a.goto_zero) *a.goto_zero = n == selected && pressed(r, "button-goto-zero");
+            if (a.half) *a.half = n == selected && pressed(r, "button-half");
+        }
+        *p.enable_off = r.rotary == Rotary::off;
+        *p.enable_feed = r.rotary == Rotary::feed;
+        *p.enable_spindle = r.rotary == Rotary::spindle;
+    }
+
+    bool pressed(const Report &r, const char *name) const {
+        for (const Button &b : buttons_)
+            if (b.code == r.button && b.name == name) return true;
+        return false;
+    }
+
+    bool has(const char *name) const {
+        for (const Button &b : buttons_)
+            if (b.name == name) return true;
+        return false;
+    }
+
+    /// Counts, velocity and directions of the wheel, once a loop.
+    void wheel(int delta) {
+        Pins &p = *pins_;
+        if (delta != 0) {
+            turned_ = Clock::now();
+            counts_ = static_cast<int32_t>(static_cast<uint32_t>(counts_) + static_cast<uint32_t>(delta));
+            *p.counts = counts_;
+            *p.counts_neg = static_cast<int32_t>(-static_cast<uint32_t>(counts_));
+            *p.increment = std::fabs(delta * *p.scale);
+            *p.velocity = 0.95 * *p.velocity + 0.05 * *p.max_velocity * 60 * *p.scale;
+            int selected = axis_of(last_.rotary);
+            if (selected != NO_AXIS) {
+                *p.axis[selected].plus = delta > 0;
+                *p.axis[selected].minus = delta < 0;
+            }
+        } else if (since(turned_) > STILL_S) {
+            *p.velocity = 0;
+            for (AxisPins &a : p.axis) *a.plus = *a.minus = false;
+        } else {
+            *p.velocity = 0.95 * *p.velocity;
+        }
+    }
+
+    void select_step() {
+        if (!options_.hal) return;
+        Pins &p = *pins_;
+        bool up = *p.stepsize_up && !was_up_, down = *p.stepsize_down && !was_down_;
+        was_up_ = *p.stepsize_up;
+        was_down_ = *p.stepsize_down;
+        if (!(was_up_ && was_down_)) {
+            if (up) step_ = (step_ + 1) % steps_.size();
+            if (down) step_ = (step_ + steps_.size() - 1) % steps_.size();
+        }
+        *p.stepsize = steps_[step_];
+        *p.scale = steps_[step_] * 0.001;
+    }
+
+    Shown shown() const {
+        const Pins &p = *pins_;
+        Shown s;
+        for (size_t n = 0; n < 3; n++) {
+            size_t from = n == 0 && last_.rotary == Rotary::a ? 3 : n;
+            s.relative[n] = *p.axis[from].pos_relative;
+            s.absolute[n] = *p.axis[from].pos_absolute;
+        }
+        s.feed_override_percent = *p.feed_override * 100;
+        s.spindle_override_percent = *p.spindle_override * 100;
+        s.feed = *p.feed_value * 60;
+        s.spindle = *p.spindle_rps * 60;
+        s.step = steps_[step_];
+        s.inch = *p.inch_icon;
+        return s;
+    }
+
+    /// Without a pendant nothing is pressed, selected or moving.
+    void release() {
+        last_ = Report{};
+        if (!options_.hal) return;
+        take(last_);
+        *pins_->enable_off = false;
+        *pins_->sleeping = false;
+        *pins_->connected = false;
+        *pins_->velocity = 0;
+        for (AxisPins &a : pins_->axis) *a.plus = *a.minus = false;
+    }
+
+    template <class T> bool pin(T *&at, hal_pin_dir_t dir, const std::string &name, int (*make)(hal_pin_dir_t, T **, int, const char *, ...)) {
+        return make(dir, &at, component_, "xhc-hb04.%s", name.c_str()) == 0;
+    }
+
+    bool make_pins() {
+        component_ = hal_init("xhc-hb04");
+        if (component_ < 0) return false;
+        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
+        if (pins_ && pins_of_axes() && other_pins()) {
+            *pins_->require_pendant = options_.require;
+            select_step();
+            return true;
+        }
+        hal_exit(component_);
+        return false;
+    }
+
+    bool pins_of_axes() {
+        for (int n = 0; n < 4; n++) {
+            AxisPins &a = pins_->axis[n];
+            const std::string letter(1, AXES[n]);
+            bool good = pin(a.pos_absolute, HAL_IN, letter + ".pos-absolute", hal_pin_float_newf) && pin(a.pos_relative, HAL_IN, letter + ".pos-relative", hal_pin_float_newf) &&
+                        pin(a.enable, HAL_OUT, "jog.enable-" + letter, hal_pin_bit_newf) && pin(a.plus, HAL_OUT, "jog.plus-" + letter, hal_pin_bit_newf) &&
+                        pin(a.minus, HAL_OUT, "jog.minus-" + letter, hal_pin_bit_newf) && (!has("button-zero") || pin(a.zero, HAL_OUT, "button-zero-" + letter, hal_pin_bit_newf)) &&
+                        (!has("button-goto-zero") || pin(a.goto_zero, HAL_OUT, "button-goto-zero-" + letter, hal_pin_bit_newf)) &&
+                        (!has("button-half") || pin(a.half, HAL_OUT, "button-half-" + letter, hal_pin_bit_newf));
+            if (!good) return false;
+        }
+        return true;
+    }
+
+    bool other_pins() {
+        Pins &p = *pins_;
+        for (size_t n = 0; n < buttons_.size(); n++)
+            if (!pin(p.button[n], HAL_OUT, buttons_[n].name, hal_pin_bit_newf)) return false;
+        return pin(p.feed_value, HAL_IN, "feed-value", hal_pin_float_newf) && pin(p.feed_override, HAL_IN, "feed-override", hal_pin_float_newf) &&
+               pin(p.spindle_rps, HAL_IN, "spindle-rps", hal_pin_float_newf) && pin(p.spindle_override, HAL_IN, "spindle-override", hal_pin_float_newf) &&
+               pin(p.sleeping, HAL_OUT, "sleeping", hal_pin_bit_newf) && pin(p.connected, HAL_OUT, "connected", hal_pin_bit_newf) &&
+               pin(p.require_pendant, HAL_OUT, "require_pendant", hal_pin_bit_newf) && pin(p.stepsize_up, HAL_IN, "stepsize-up", hal_pin_bit_newf) &&
+               pin(p.stepsize_down, HAL_IN, "stepsize-down", hal_pin_bit_newf) && pin(p.inch_icon, HAL_IN, "inch-icon", hal_pin_bit_newf) &&
+               pin(p.stepsize, HAL_OUT, "stepsize", hal_pin_s32_newf) && pin(p.counts, HAL_OUT, "jog.counts", hal_pin_s32_newf) &&
+               pin(p.counts_neg, HAL_OUT, "jog.counts-neg", hal_pin_s32_newf) && pin(p.enable_off, HAL_OUT, "jog.enable-off", hal_pin_bit_newf) &&
+               pin(p.enable_feed, HAL_OUT, "jog.enable-feed-override", hal_pin_bit_newf) && pin(p.enable_spindle, HAL_OUT, "jog.enable-spindle-override", hal_pin_bit_newf) &&
+               pin(p.scale, HAL_OUT, "jog.scale", hal_pin_float_newf) && pin(p.velocity, HAL_OUT, "jog.velocity", hal_pin_float_newf) &&
+               pin(p.max_velocity, HAL_IN, "jog.max-velocity", hal_pin_float_newf) && pin(p.increment, HAL_OUT, "jog.increment", hal_pin_float_newf);
+    }
+
+    const Options &options_;
+    std::vector<Button> buttons_;
+    std::vector<int> steps_;
+    size_t step_ = 0;
+    bool was_up_ = false, was_down_ = false;
+    int32_t counts_ = 0;
+    Clock::time_point turned_{};
+    Report last_;
+    Usb usb_;
+    int component_ = -1;
+    Pins *pins_ = nullptr;
+};
+
+void usage(FILE *out) {
+    fprintf(out, "xhc-hb04 [-h] [-I LAYOUT] [-H] [-x] [-s SEQUENCE]\n"
+                 "  -I file  layout of the buttons: section [XHC-HB04], lines BUTTON=CODE:NAME\n"
+                 "  -H       HAL pins; without it events are printed\n"
+                 "  -x       needs the pendant: not ready before it is found, ends when it is lost\n"
+                 "  -s n     step sizes in 0.001 units: 1: 1,10,100,1000  2: 1,5,10,20  3: 1,10,100  4: 1,5,10,20,50,100  5: 1,10,50,100,1000\n");
+}
+
+} // namespace
+
+int run_program(int argc, char **argv) {
+    Options options;
+    for (int c; (c = getopt(argc, argv, "hI:Hxs:")) != -1;) {
+        switch (c) {
+        case 'h': usage(stdout); return 0;
+        case 'I': options.layout = optarg; break;
+        case 'H': options.hal = true; break;
+        case 'x': options.require = true; break;
+        case 's': options.sequence = atoi(optarg); break;
+        default: usage(stderr); return 1;
+        }
+    }
+    if (optind < argc || step_sequence(options.sequence).empty()) {
+        usage(stderr);
+        return 1;
+    }
+    std::vector<Button> buttons;
+    if (!options.layout.empty() && !read_layout(options.layout, buttons)) return 1;
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    return Program(options, std::move(buttons)).run();
+}
+
+} // namespace xhc
+
+int main(int argc, char **argv) { return xhc::run_program(argc, argv); }

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""xhc-hb04 with a pendant in place of libusb: buttons, rotary, wheel, steps, display, a pendant that goes and comes."""
+import os
+import signal
+import struct
+import subprocess
+import time
+from pathlib import Path
+
+folder = Path(os.environ["PENDANT"])
+layouts = Path(__file__).resolve().parents[3] / "lib/hallib"
+pipe = os.open(folder / "in", os.O_RDWR)
+environment = dict(os.environ, LD_PRELOAD=str(folder / "usb.so"))
+
+
+def halcmd(*words):
+    return subprocess.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+
+
+def get(pin):
+    return halcmd("getp", "xhc-hb04." + pin)
+
+
+def setp(pin, value):
+    halcmd("setp", "xhc-hb04." + pin, str(value))
+
+
+def until(condition, what, seconds=20):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            return print("never:", what)
+        time.sleep(0.005)
+    print(what)
+
+
+def on(*names):
+    """Which of these are TRUE."""
+    return [n for n in names if get(n) == "TRUE"]
+
+
+def report(button=0, rotary=0, wheel=0, head=4):
+    os.write(pipe, struct.pack("BBBBbB", head, button, 0, rotary, wheel, 0))
+
+
+def start(*options, **changes):
+    return subprocess.Popen(["xhc-hb04", *options], env=environment | changes, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def end(program):
+    program.send_signal(signal.SIGTERM)
+    print("ends with", program.wait(20), program.stdout.read().splitlines())
+
+
+def ready():
+    return "xhc-hb04" in halcmd("list", "comp").split()
+
+
+def image():
+    """What the display shows last."""
+    blocks = (folder / "out").read_bytes()
+    last = blocks[len(blocks) // 48 * 48 - 48:len(blocks) // 48 * 48]
+    assert all(last[n] == 6 for n in range(0, 48, 8))
+    return b"".join(last[n + 1:n + 8] for n in range(0, 48, 8))
+
+
+def coordinates():
+    values = struct.unpack("<12H", image()[3:27])
+    return [(w + (f & 0x7FFF) / 10000) * (-1 if f & 0x8000 else 1) for w, f in zip(values[::2], values[1::2])]
+
+
+print("== without a pendant")
+patient = start("-x", PENDANT="/nowhere")
+program = start("-H", "-s", "2", "-I", str(layouts / "xhc-hb04-layout2.cfg"))
+until(ready, "ready at once")
+print(*sorted(" ".join((w[4], w[1], w[2])) for w in (line.split() for line in halcmd("show", "pin", "xhc-hb04.*").splitlines())), sep="\n")
+print(on("connected", "require_pendant"), get("stepsize"), get("jog.scale"))
+print("== buttons and rotary")
+(folder / "present").touch()
+until(lambda: on("connected"), "found")
+report(0x02, 0x12)
+until(lambda: on("button-start-pause"), "pressed")
+print(on("jog.enable-off", "jog.enable-x", "jog.enable-y", "jog.enable-z", "jog.enable-a", "jog.enable-feed-override", "jog.enable-spindle-override"))
+report(0x07, 0x13)
+until(lambda: on("button-zero-z"), "zero of the selected axis")
+print(on("button-start-pause", "button-zero", "button-zero-x", "button-zero-y", "button-zero-a", "button-half-z"))
+for rotary, name in ((0x11, "x"), (0x18, "a"), (0x14, "spindle-override"), (0x15, "feed-override")):
+    report(0, rotary)
+    until(lambda: on("jog.enable-" + name), "selected: " + name)
+print(on("button-zero", "button-zero-z", "jog.enable-x", "jog.enable-a"))
+report()
+until(lambda: on("sleeping"), "sleeps")
+report(0x0D, 0)
+until(lambda: not on("sleeping") and on("button-step"), "awake")
+print("== wheel and steps")
+setp("jog.max-velocity", 100)
+for value in ("1", "5", "10", "20", "1"):
+    print(get("stepsize"), get("jog.scale"), end=" ")
+    setp("stepsize-up", 1)
+    until(lambda: get("stepsize") != value, "up")
+    setp("stepsize-up", 0)
+    time.sleep(0.1)
+setp("stepsize-down", 1)
+until(lambda: get("stepsize") == "1", "down")
+setp("stepsize-up", 1)
+time.sleep(0.2)
+print("both:", get("stepsize"))
+setp("stepsize-down", 0)
+setp("stepsize-up", 0)
+report(0, 0x12, 3)
+until(lambda: get("jog.counts") == "3" and get("jog.counts-neg") == "-3", "counts")
+print(get("jog.increment"), on("jog.minus-y", "jog.plus-x"))
+report(0, 0x12, -5)
+until(lambda: get("jog.counts") == "-2", "counts back")
+until(lambda: get("jog.velocity") == "0" and not on("jog.plus-y", "jog.minus-y"), "at rest, nothing moves")
+print("== display")
+for name, value in (("x.pos-absolute", 12.34567), ("x.pos-relative", -0.00004), ("y.pos-absolute", -1.99996), ("y.pos-relative", 70000), ("z.pos-relative", -3.5), ("a.pos-relative", 90.25),
+                    ("feed-override", 1.2), ("spindle-override", 0.5), ("feed-value", 10), ("spindle-rps", -20), ("inch-icon", 1)):
+    setp(name, value)
+until(lambda: image()[36] == 0x80 and coordinates()[3] > 12, "shown")
+time.sleep(0.2)
+print(coordinates(), struct.unpack("<4h", image()[27:35]), image()[:3].hex(), image()[35])
+report(0, 0x18)
+until(lambda: coordinates()[0] == 90.25, "A in place of X")
+print("== a pendant that goes and comes back")
+report(0x02, 0x11, 7)
+until(lambda: on("button-start-pause"), "pressed")
+(folder / "present").unlink()
+report(head=0xFF)
+until(lambda: not on("connected"), "lost")
+print(on("button-start-pause", "jog.enable-x", "jog.plus-x"), get("jog.velocity"), get("jog.counts"))
+(folder / "present").touch()
+until(lambda: on("connected"), "found again")
+end(program)
+print("== one that must be there")
+program = start("-x", "-H")
+until(lambda: ready() and on("connected", "require_pendant") == ["connected", "require_pendant"], "ready with it")
+report(head=0xFF)
+print("ends with", program.wait(20), program.stdout.read().splitlines())
+print("not found: ends with", patient.wait(30), patient.stdout.read().splitlines())
+print("== without HAL, and mistakes")
+report(0x17, 0x11, -1)
+program = start()
+print(program.stdout.readline().strip(), program.stdout.readline().strip())
+end(program)
+Path(folder / "bad.cfg").write_text("[XHC-HB04]\nBUTTON = zz:name\n")
+Path(folder / "none.cfg").write_text("[OTHER]\n")
+for options in (["-s", "6"], ["-q"], ["-I", str(folder / "bad.cfg")], ["-I", str(folder / "none.cfg")], ["-I", "/nothing.cfg"]):
+    program = start(*options)
+    print(program.wait(20), program.stdout.read().splitlines()[:1][0].replace(str(folder), ""))

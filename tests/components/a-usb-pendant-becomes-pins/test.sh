@@ -1,0 +1,8 @@
+#!/bin/bash
+PENDANT=$(mktemp -d)
+export PENDANT
+trap 'halrun -U >/dev/null 2>&1; rm -rf "$PENDANT"' EXIT
+cc -shared -fPIC $(pkg-config --cflags libusb-1.0) -o "$PENDANT/usb.so" usb.c || exit
+mkfifo "$PENDANT/in"
+realtime start 2>/dev/null
+timeout 100 /usr/bin/python3 check.py

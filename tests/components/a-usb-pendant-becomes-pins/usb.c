@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later
+ *
+ * usb.c - a pendant for tests in place of libusb (LD_PRELOAD). In the folder PENDANT: it is there while a file
+ * `present` is; reports of six bytes come from the pipe `in` (one that begins with FF: it is lost); blocks for the
+ * display are added to the file `out`.
+ */
+#include <fcntl.h>
+#include <libusb.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static int in = -1;
+
+static const char *path(const char *name)
+{
+    static char text[4096];
+    snprintf(text, sizeof text, "%s/%s", getenv("PENDANT"), name);
+    return text;
+}
+
+int libusb_init(libusb_context **context)
+{
+    *context = NULL;
+    return 0;
+}
+
+void libusb_exit(libusb_context *context)
+{
+    (void)context;
+}
+
+libusb_device_handle *libusb_open_device_with_vid_pid(libusb_context *context, uint16_t vendor, uint16_t product)
+{
+    (void)context;
+    if (vendor != 0x10CE || product != 0xEB70 || access(path("present"), F_OK) != 0) {
+        return NULL;
+    }
+    in = open(path("in"), O_RDWR);
+    return (libusb_device_handle *)&in;
+}
+
+void libusb_close(libusb_device_handle *handle)
+{
+    (void)handle;
+    close(in);
+}
+
+int libusb_set_auto_detach_kernel_driver(libusb_device_handle *handle, int enable)
+{
+    (void)handle;
+    (void)enable;
+    return 0;
+}
+
+int libusb_claim_interface(libusb_device_handle *handle, int number)
+{
+    (void)handle;
+    return number;
+}
+
+int libusb_release_interface(libusb_device_handle *handle, int number)
+{
+    (void)handle;
+    return number;
+}
+
+libusb_device *libusb_get_device(libusb_device_handle *handle)
+{
+    (void)handle;
+    return NULL;
+}
+
+int libusb_get_active_config_descriptor(libusb_device *device, struct libusb_config_descriptor **config)
+{
+    (void)device;
+    (void)config;
+    return LIBUSB_ERROR_NOT_FOUND;
+}
+
+int libusb_interrupt_transfer(libusb_device_handle *handle, unsigned char endpoint, unsigned char *data, int length, int *done, unsigned timeout)
+{
+    (void)handle;
+    struct pollfd wait = {in, POLLIN, 0};
+    if (endpoint != 0x81 || length < 6 || poll(&wait, 1, (int)timeout) != 1) {
+        return LIBUSB_ERROR_TIMEOUT;
+    }
+    *done = (int)read(in, data, 6);
+    return *done == 6 && data[0] != 0xFF ? 0 : LIBUSB_ERROR_NO_DEVICE;
+}
+
+int libusb_control_transfer(libusb_device_handle *handle, uint8_t type, uint8_t request, uint16_t value, uint16_t index, unsigned char *data, uint16_t length, unsigned timeout)
+{
+    (void)handle;
+    (void)timeout;
+    if (type != 0x21 || request != 9 || value != 0x306 || index != 0) {
+        return LIBUSB_ERROR_PIPE;
+    }
+    int out = open(path("out"), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    int done = (int)write(out, data, length);
+    close(out);
+    return done;
+}
