@@ -13,6 +13,7 @@ import re
 import shutil
 from pathlib import Path
 
+from .check_probing import dead_tests
 from .ini_schema import OLD, OPEN_SECTIONS, SCHEMA
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -22,6 +23,7 @@ TOO_FAST = {"mm": 3000.0, "inch": 120.0}
 TOO_LONG_INCH = 1000.0       # travel of an inch machine that must be in millimetres
 INCH_WORDS = ("in", "inch", "imperial")
 TEXT_DEPTH, TEXT_FILES = 3, 400     # how far the files beside the INI file are looked at
+PROGRAM_SIZE = 100_000       # bytes: longer programs are none that people wrote
 GROUPS = {"EMBED_TAB_NAME": "EMBED_TAB_COMMAND", "MESSAGE_TEXT": "MESSAGE_TYPE"}
 
 
@@ -41,7 +43,7 @@ class Settings:
         return default if value is None else value
 
     def run(self):
-        for check in (self.names, self.values, self.counts, self.speeds, self.homing, self.combinations, self.files):
+        for check in (self.names, self.values, self.counts, self.speeds, self.homing, self.combinations, self.files, self.probing):
             check()
 
     # -- names -------------------------------------------------------------------------------
@@ -337,6 +339,15 @@ class Settings:
             if m and not any((d / f"{m[1]}.ngc").is_file() for d in self.program_folders()):
                 self.c.warning(f"[RS274NGC]REMAP: No file {m[1]}.ngc in PROGRAM_PREFIX or SUBROUTINE_PATH ({line.split()[0]})",
                                "RS274NGC", "REMAP", n + 1)
+
+    def probing(self):
+        """FP-078: macros that branch on the success of a probe move which ends the program without one."""
+        files = [f for folder in dict.fromkeys(self.program_folders()) for f in sorted(folder.glob("*.ngc"))]
+        for f in files[:TEXT_FILES]:
+            if f.is_file() and f.stat().st_size <= PROGRAM_SIZE and os.access(f, os.R_OK):
+                for line, code in dead_tests(f.read_text(errors="replace")):
+                    self.c.warning(f"{f}:{line}: {code} ends the program when there is no contact, so this test of #5070 "
+                                   f"is always true: use {code[:-1]}{int(code[-1]) + 1}")
 
     def program_folders(self):
         names = [self.ini.get("DISPLAY", "PROGRAM_PREFIX") or "."]

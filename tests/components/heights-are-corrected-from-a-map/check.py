@@ -40,6 +40,12 @@ def maps() -> None:
     nearest = z.Map(grid, "nearest")
     check("nearest", nearest.at(6, 1), plane(5, 0))
     hole = z.Map([(0.0, 0.0, 1.0), (10.0, 0.0, 1.0), (0.0, 10.0, 1.0), (5.0, 5.0, 1.0)], "linear")
+    # FP-075: whatever the interpolation says, a correction stays within the range of the map, also beyond its edges
+    kept = z.Map.__dict__["smooth"]
+    z.Map.smooth = staticmethod(lambda grid, places, heights: heights.max() + 48.0 * grid[..., 0])
+    wild = z.Map(grid, "cubic")
+    z.Map.smooth = kept
+    check("overshoot", (wild.at(20, 0), wild.at(999, 0)), (max(p[2] for p in grid),) * 2)
     check("inside", hole.at(2, 2), 1.0)
     check("nothing known", hole.at(9, 9), 0.0)
 

@@ -69,6 +69,28 @@ check 's/^\[RS274NGC\]/&\nREMAP = M400 modalgroup=10 ngc=m400/'
 check 's/^TASK = milltask/TASK = miltask/'
 check 's/^DISPLAY = axis/DISPLAY = ..\/nothing/'
 check '$a [PYTHON]\nTOPLEVEL = .'
+echo "== macros (FP-078)"
+cat > touch.ngc <<'END'
+o<touch> sub
+G38.3 Z-5 F10
+o1 if [#5070 EQ 0]
+  (MSG, nothing there: #5070)
+o1 endif
+g91 G38.2 Z-1 (slow) F2
+G0 Z1
+o2 if [#5063 GT 3 AND #5070 EQ 1] ; dead
+o2 endif
+G38.4 Z1
+o3 while [# 5070 EQ 0]
+o3 endwhile
+o<touch> endsub
+o<other> sub
+o4 if [#5070 EQ 0]
+o4 endif
+o<other> endsub
+END
+check ''
+rm touch.ngc
 echo "== an include is named"
 echo 'MIN_FEROR = 3' > joint.inc
 check '$a #INCLUDE joint.inc'
