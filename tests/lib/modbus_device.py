@@ -102,8 +102,8 @@ class SerialDevice(Device):
 
     LENGTHS = {1: 8, 2: 8, 3: 8, 4: 8, 5: 8, 6: 8}
 
-    def __init__(self, slave):
-        super().__init__()
+    def __init__(self, slave, size=200):
+        super().__init__(size)
         self.slave = slave
         self.end, other = pty.openpty()
         tty.setraw(self.end)

@@ -284,11 +284,12 @@ bool Parser::include(std::string_view rest)
 bool Parser::name_ok(const char *kind, const std::string &name)
 {
     if (identifier_ok(name) && !is_digit(name[0])) return true;
-    if (name == "XHC-HB04" || name == "VFD-B") return true; // sections with these names are documented
     std::string plain = name;
     for (char &c : plain)
         if (c == '-' || c == '.') c = '_';
     if (!identifier_ok(plain)) return false;
+    // Documented ones need no warning: sections of drivers, and the pendant's buttons.
+    if (name == "XHC-HB04" || name == "VFD-B" || current == "XHC_HB04_BUTTONS") return true;
     warning("Unusual %s '%s': letters, digits and underscores, no digit first, are understood everywhere", kind, name.c_str());
     return true;
 }

@@ -16,6 +16,7 @@ $(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 # Programs in C++.
 ifeq ($(HAVE_LIBMODBUS),yes)
 $(eval $(call program,mb2hal,src/hal/user_comps/mb2hal/mb2hal.cc src/hal/user_comps/mb2hal/config.cc,linuxcnchal linuxcncini $(LIBMODBUS_LIBS) -lpthread,$(LIBMODBUS_CFLAGS) -Isrc/emc/ini))
+$(eval $(call program,gs2_vfd,src/hal/user_comps/vfd/gs2_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS)))
 endif
 ifeq ($(HAVE_LIBUSB10),yes)
 $(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini))

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// gs2_vfd.cc - gs2_vfd: a GS2 drive (AutomationDirect) on a serial line as HAL pins (libmodbus).
+// Source: Modbus sheet, section 2.
+#include <getopt.h>
+#include <modbus.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <climits>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "choices.hh"
+#include "hal.h"
+
+namespace gs2 {
+
+namespace {
+
+// Registers of the drive.
+constexpr int STATUS = 0x2100, STATUS_COUNT = 13;
+constexpr int SPEED = 0x091A, RUN = 0x091B, DIRECTION = 0x091C, FAULT_RESET = 0x091E;
+constexpr int ACCEL = 0x0101, STOP_METHOD = 0x0100, DECEL = 0x0102, STALL_PREVENTION = 0x0605;
+constexpr double COAST_DECEL_S = 20.0;
+constexpr size_t MAX_NAME = 27;
+
+std::atomic<bool> ending{false};
+
+void on_signal(int) { ending = true; }
+
+struct Options {
+    std::string name = "gs2_vfd", device = "/dev/ttyS0";
+    int bits = 8, stop = 1, target = 1, rate = 38400;
+    char parity = 'O';
+    double accel_s = 10, decel_s = 0;
+    bool verbose = false, debug = false, resistor = false, disabled = false;
+};
+
+struct Pins {
+    hal_s32_t *status_1, *status_2, *firmware;
+    hal_float_t *frequency_command, *frequency_out, *current, *dc_volts, *out_volts, *rpm, *scale_frequency, *power_factor, *load;
+    hal_bit_t *at_speed, *is_stopped, *initialized, *on, *fwd, *rev, *err_reset, *enable;
+    hal_float_t *speed_command;
+    // parameters
+    hal_s32_t error_count, retval, ack_delay;
+    hal_float_t loop_time, tolerance, nameplate_hz, nameplate_rpm;
+};
+
+class Drive {
+public:
+    explicit Drive(const Options &options) : options_(options) {}
+    ~Drive() {
+        if (link_) modbus_close(link_);
+        modbus_free(link_);
+    }
+
+    int run() {
+        if (!open() || !make_pins()) return -1;
+        hal_ready(component_);
+        while (!ending) {
+            step();
+            double loop_s = pins_->loop_time;
+            std::this_thread::sleep_for(std::chrono::duration<double>(loop_s > 0.001 ? std::min(loop_s, 2.0) : 0.001));
+        }
+        for (int tries = 0; *pins_->initialized && tries < 5 && !write(RUN, 0); tries++) {} // nothing turns on after the program
+        hal_exit(component_);
+        return 0;
+    }
+
+private:
+    bool open() {
+        link_ = modbus_new_rtu(options_.device.c_str(), options_.rate, options_.parity, options_.bits, options_.stop);
+        if (!link_) {
+            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.device.c_str(), modbus_strerror(errno));
+            return false;
+        }
+        modbus_set_debug(link_, options_.debug);
+        modbus_set_slave(link_, options_.target);
+        if (modbus_connect(link_) != 0) {
+            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.device.c_str(), modbus_strerror(errno));
+            return false;
+        }
+        return true;
+    }
+
+    bool write(int address, int value) { return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1; }
+
+    void step() {
+        Pins &p = *pins_;
+        if (!*p.enable) {
+            if (*p.initialized) {
+                *p.on = false;
+                command();
+                if (run_ == 0) *p.initialized = false; // else the drive did not hear of it: again
+            }
+            return;
+        }
+        if (!*p.initialized) {
+            if (!configure()) return;
+            *p.initialized = true;
+            run_ = direction_ = reset_ = -1;
+        }
+        read();
+        command();
+    }
+
+    bool configure() {
+        bool coast = options_.decel_s <= 0;
+        struct { int address, value; } settings[] = {
+            {ACCEL, static_cast<int>(std::lround(options_.accel_s * 10))}, {STOP_METHOD, coast ? 1 : 0},
+            {DECEL, static_cast<int>(std::lround((coast ? COAST_DECEL_S : options_.decel_s) * 10))}, {STALL_PREVENTION, options_.resistor ? 1 : 0}};
+        for (auto &s : settings) {
+            if (!write(s.address, s.value)) {
+                pins_->error_count++;
+                return false;
+            }
+            if (options_.verbose) printf("%s: register 0x%04x = %d\n", options_.name.c_str(), static_cast<unsigned>(s.address), s.value), fflush(stdout);
+        }
+        return true;
+    }
+
+    void read() {
+        Pins &p = *pins_;
+        uint16_t r[STATUS_COUNT];
+        p.retval = modbus_read_registers(link_, STATUS, STATUS_COUNT, r);
+        if (p.retval != STATUS_COUNT) {
+            p.error_count++;
+            *p.at_speed = false;
+            modbus_flush(link_);
+            return;
+        }
+        p.retval = 0;
+        *p.status_1 = r[0];
+        *p.status_2 = r[1];
+        *p.frequency_command = r[2] / 10.0;
+        *p.frequency_out = r[3] / 10.0;
+        *p.current = r[4] / 10.0;
+        *p.dc_volts = r[5] / 10.0;
+        *p.out_volts = r[6] / 10.0;
+        *p.rpm = r[7];
+        *p.scale_frequency = (static_cast<uint32_t>(r[9]) << 16 | r[8]) / 10.0;
+        *p.power_factor = r[10];
+        *p.load = r[11] / 10.0;
+        *p.firmware = r[12];
+        *p.is_stopped = r[3] == 0;
+        if (!*p.on) {
+            *p.at_speed = false;
+            since_start_ = 0;
+        } else if (since_start_ < p.ack_delay) {
+            since_start_++; // the drive has not taken the command yet
+            *p.at_speed = false;
+        } else {
+            *p.at_speed = r[2] == r[3];
+        }
+    }
+
+    void command() {
+        Pins &p = *pins_;
+        if (p.nameplate_hz < 10) p.nameplate_hz = 60;
+        if (p.nameplate_rpm < 600 || p.nameplate_rpm > 5000) p.nameplate_rpm = 1800;
+        double hz_tenths = std::fabs(*p.speed_command * p.nameplate_hz / p.nameplate_rpm * 10);
+        write(SPEED, std::isfinite(hz_tenths) ? static_cast<int>(std::min(hz_tenths, 65535.0)) : 0);
+        *p.rev = !*p.fwd && *p.on;
+        change(RUN, *p.on ? 1 : 0, run_);
+        change(DIRECTION, *p.fwd ? 0 : 1, direction_);
+        change(FAULT_RESET, *p.err_reset ? 1 : 0, reset_);
+    }
+
+    /// Writes what is new. What the drive did not take is tried again.
+    void change(int address, int value, int &known) {
+        if (value != known) known = write(address, value) ? value : -1;
+    }
+
+    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F make) { return make(dir, &at, component_, "%s.%s", options_.name.c_str(), name) == 0; }
+    template <class T, class F> bool parameter(T &at, const char *name, F make) { return make(HAL_RW, &at, component_, "%s.%s", options_.name.c_str(), name) == 0; }
+
+    bool make_pins() {
+        component_ = hal_init(options_.name.c_str());
+        if (component_ < 0) return false;
+        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
+        if (!pins_ || !make_all()) {
+            hal_exit(component_);
+            return false;
+        }
+        Pins &p = *pins_;
+        p.loop_time = 0.1;
+        p.tolerance = 0.01;
+        p.nameplate_hz = 60;
+        p.nameplate_rpm = 1730;
+        p.ack_delay = 2;
+        *p.fwd = true;
+        *p.enable = !options_.disabled;
+        return true;
+    }
+
+    bool make_all() {
+        Pins &p = *pins_;
+        struct { hal_float_t **at; const char *name; } floats[] = {
+            {&p.frequency_command, "frequency-command"}, {&p.frequency_out, "frequency-out"}, {&p.current, "output-current"}, {&p.dc_volts, "DC-bus-volts"},
+            {&p.out_volts, "output-voltage"}, {&p.rpm, "motor-RPM"}, {&p.scale_frequency, "scale-frequency"}, {&p.power_factor, "power-factor"}, {&p.load, "load-percentage"}};
+        for (auto &f : floats)
+            if (!pin(*f.at, HAL_OUT, f.name, hal_pin_float_newf)) return false;
+        struct { hal_bit_t **at; hal_pin_dir_t dir; const char *name; } bits[] = {
+            {&p.at_speed, HAL_OUT, "at-speed"}, {&p.is_stopped, HAL_OUT, "is-stopped"}, {&p.initialized, HAL_OUT, "initialized"}, {&p.on, HAL_IN, "spindle-on"},
+            {&p.fwd, HAL_IN, "spindle-fwd"}, {&p.rev, HAL_IN, "spindle-rev"}, {&p.err_reset, HAL_IN, "err-reset"}, {&p.enable, HAL_IN, "enable"}};
+        for (auto &b : bits)
+            if (!pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
+        return pin(p.status_1, HAL_OUT, "status-1", hal_pin_s32_newf) && pin(p.status_2, HAL_OUT, "status-2", hal_pin_s32_newf) &&
+               pin(p.firmware, HAL_OUT, "firmware-revision", hal_pin_s32_newf) && pin(p.speed_command, HAL_IN, "speed-command", hal_pin_float_newf) &&
+               parameter(p.error_count, "error-count", hal_param_s32_newf) && parameter(p.retval, "retval", hal_param_s32_newf) &&
+               parameter(p.ack_delay, "ack-delay", hal_param_s32_newf) && parameter(p.loop_time, "loop-time", hal_param_float_newf) &&
+               parameter(p.tolerance, "tolerance", hal_param_float_newf) && parameter(p.nameplate_hz, "nameplate-HZ", hal_param_float_newf) &&
+               parameter(p.nameplate_rpm, "nameplate-RPM", hal_param_float_newf);
+    }
+
+    const Options &options_;
+    modbus_t *link_ = nullptr;
+    int component_ = -1, run_ = -1, direction_ = -1, reset_ = -1, since_start_ = 0;
+    Pins *pins_ = nullptr;
+};
+
+constexpr option LONG[] = {
+    {"bits", 1, nullptr, 'b'}, {"device", 1, nullptr, 'd'}, {"verbose", 0, nullptr, 'v'}, {"debug", 0, nullptr, 'g'}, {"name", 1, nullptr, 'n'}, {"parity", 1, nullptr, 'p'},
+    {"rate", 1, nullptr, 'r'}, {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"accel-seconds", 1, nullptr, 'A'}, {"decel-seconds", 1, nullptr, 'D'},
+    {"braking-resistor", 0, nullptr, 'R'}, {"disable", 0, nullptr, 'X'}, {"help", 0, nullptr, 'h'}, {nullptr, 0, nullptr, 0}};
+
+void usage() {
+    printf("gs2_vfd [-b BITS] [-d DEVICE] [-v] [-g] [-n NAME] [-p even|odd|none] [-r RATE] [-s STOPBITS] [-t TARGET]\n"
+           "        [-A ACCEL_SECONDS] [-D DECEL_SECONDS] [-R] [-X]\n"
+           "Defaults: 8 bits, /dev/ttyS0, gs2_vfd, odd, 38400, 1, 1, 10.0, 0.0 (coast).\n"
+           "-v shows what is configured, -g the traffic; -R: there is a braking resistor; -X: begins disabled.\n");
+}
+
+bool number(const char *what, const char *text, double low, double high, double &value) {
+    char *end = nullptr;
+    value = strtod(text, &end);
+    if (end != text && *end == '\0' && value >= low && value <= high) return true;
+    fprintf(stderr, "gs2_vfd: %s %s: must be a number from %g to %g\n", what, text, low, high);
+    return false;
+}
+
+/// Status to end with, or none to go on.
+bool parse(int argc, char **argv, Options &o, int &status) {
+    status = -1;
+    for (int c; (c = getopt_long(argc, argv, "b:d:vgn:p:r:s:t:A:D:RXh", LONG, nullptr)) != -1;) {
+        const char *chosen = optarg;
+        double value = 0;
+        switch (c) {
+        case 'b': if (!(chosen = one_of("gs2_vfd", "bits", optarg, {"5", "6", "7", "8"}))) return false; o.bits = atoi(chosen); break;
+        case 'd': o.device = optarg; break;
+        case 'v': o.verbose = true; break;
+        case 'g': o.debug = true; break;
+        case 'n':
+            o.name = optarg;
+            if (o.name.empty() || o.name.size() > MAX_NAME) {
+                fprintf(stderr, "gs2_vfd: name %s: must have 1 to %zu characters\n", optarg, MAX_NAME);
+                return false;
+            }
+            break;
+        case 'p': if (!(chosen = one_of("gs2_vfd", "parity", optarg, {"even", "odd", "none"}))) return false; o.parity = static_cast<char>(toupper(*chosen)); break;
+        case 'r':
+            chosen = one_of("gs2_vfd", "rate", optarg, {"110", "300", "600", "1200", "2400", "4800", "9600", "19200", "38400", "57600", "115200"});
+            if (!chosen) return false;
+            o.rate = atoi(chosen);
+            break;
+        case 's': if (!(chosen = one_of("gs2_vfd", "stopbits", optarg, {"1", "2"}))) return false; o.stop = atoi(chosen); break;
+        case 't': if (!number("target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
+        case 'A': if (!number("accel-seconds", optarg, 0, 6553, o.accel_s)) return false; break;
+        case 'D': if (!number("decel-seconds", optarg, 0, 6553, o.decel_s)) return false; break;
+        case 'R': o.resistor = true; break;
+        case 'X': o.disabled = true; break;
+        case 'h': usage(); status = 0; return false;
+        default: return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+int run_program(int argc, char **argv) {
+    Options options;
+    int status;
+    if (!parse(argc, argv, options, status)) return status;
+    printf("%s: device='%s', baud=%d, parity='%c', bits=%d, stopbits=%d, address=%d, enabled=%d\n", options.name.c_str(), options.device.c_str(), options.rate, options.parity,
+           options.bits, options.stop, options.target, !options.disabled);
+    fflush(stdout);
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    return Drive(options).run();
+}
+
+} // namespace gs2
+
+int main(int argc, char **argv) { return gs2::run_program(argc, argv); }
