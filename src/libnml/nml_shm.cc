@@ -471,7 +471,7 @@ std::unique_ptr<Transport> open_phantom(const Connection &c) { return std::make_
 
 int instance_port(int p) {
     if (!*kerf_instance() || p <= 0) return p;
-    return 20000 + kerf_instance_key(p) % 40000; // below the ports that the kernel gives out
+    return 20000 + kerf_instance_key(p) % 12000; // below the ports that the kernel gives out (32768 and more)
 }
 
 } // namespace nml
