@@ -16,3 +16,9 @@ bench-clients: all
 bench-preview: all
 	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/preview_bench.py'
 BENCHES += bench-clients bench-preview
+
+# A day of the machine (SOAK_HOURS) in virtual time, about half an hour: not among the benches of every day.
+.PHONY: bench-soak
+bench-soak: all
+	bash -c '. scripts/rip-environment && cd tests/small-tools/fp-137-programs-that-run-long-keep-their-size && \
+	    SOAK_HOURS=$(or $(SOAK_HOURS),24) MACHINE_TEST_S=36000 KERF_INSTANCE=soak bash test.sh'

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Two minutes of a busy machine (a program in a loop, offsets, tool changes, messages, three clients that poll and read
-# every attribute, one that dies again and again): none of the long-running processes grows.
+# Two minutes, or SOAK_HOURS, of a busy machine (a program in a loop, offsets, tool changes, messages, three clients that
+# poll and read every attribute, one that dies again and again): none of the processes grows in memory or in open files.
+import os
 import re
 
 from mill import *
 
 SESSION = [e for e in Path("/proc/self/environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")][0]
+ROUNDS = max(12, round(float(os.environ.get("SOAK_HOURS", "0")) * 360))  # of ten seconds
 NAMES = ("milltask", "rtapi_app", "halui", "linuxcncsvr", "client")
 CLIENT = """
 import linuxcnc
@@ -24,14 +26,14 @@ while True:
 
 
 def sizes():
-    """Name -> kB of private memory; processes of this session."""
+    """Name -> (kB of private memory, open files); processes of this session."""
     found = {}
     for p in Path("/proc").iterdir():
         try:
             name = (p / "comm").read_text().strip()
             if name in NAMES and SESSION in (p / "environ").read_bytes().split(b"\0"):
                 rollup = (p / "smaps_rollup").read_text()
-                found[name + p.name] = sum(int(l.split()[1]) for l in rollup.splitlines() if l.startswith("Private_"))
+                found[name + p.name] = sum(int(l.split()[1]) for l in rollup.splitlines() if l.startswith("Private_")), len(os.listdir(p / "fd"))
         except OSError:
             pass
     return found
@@ -43,17 +45,19 @@ program("o1 while [1]\nG10 L2 P1 X#<_coord_system>\nT1 M6\nT2 M6\nG0 X1\n(MSG, r
 c.auto(AUTO_RUN, 0)
 sleep(20)
 looks = [sizes()]
-for n in range(12):
+for n in range(ROUNDS):
     sleep(10)
     short = clock.spawn(["/usr/bin/python3", "-c", "import linuxcnc; linuxcnc.stat().poll(); linuxcnc.command().debug(0)"], "short", priority=600)
     clock.wait_until(lambda: short.poll() is not None, 60)
-    if n % 4 == 3:
+    if n % (ROUNDS // 3) == ROUNDS // 3 - 1:
         looks.append(sizes())
 first = looks[0]
 # What leaks grows from look to look; a page touched for the first time does so once.
 grown = {re.sub(r"\d+$", "", n): [l[n] for l in looks] for n in first
-         if all(n in l for l in looks) and all(b[n] - a[n] > 150 for a, b in zip(looks, looks[1:]))}
+         if all(n in l for l in looks) and (all(b[n][0] - a[n][0] > 150 for a, b in zip(looks, looks[1:])) or looks[-1][n][1] > first[n][1] + 2)}
 print(len(first), sorted({re.sub(r"\d+$", "", n) for n in first}), "grown:", grown)
+if ROUNDS > 12:
+    print(ROUNDS / 360, "hours:", {re.sub(r"\d+$", "", n): [l.get(n) for l in looks] for n in first})
 c.abort()
 for child in children:
     child.kill()
