@@ -462,9 +462,12 @@ proc ::axis::build_status {} {
     frame .info
     label .info.task_state -textvariable task_state_string -width 16 -anchor w -relief flat
     label .info.tool -textvariable tool -anchor w -width 44
+    label .info.control -textvariable control_name -anchor w
     label .info.position -textvariable position -anchor w -width 30
     canvas .info.progress -width 1 -height 1 -highlightthickness 0
-    pack .info.task_state .info.tool -side left -padx 6
+    pack .info.task_state -side left -padx 6
+    pack .info.control -side left
+    pack .info.tool -side left -padx 6
     pack .info.position -side left -padx 6 -fill x -expand 1
 }
 

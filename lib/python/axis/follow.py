@@ -73,6 +73,7 @@ class FollowPart:
         put("on_any_limit", int(any(s.limit[:self.settings.joints])))
         put("tool", tool_text(s, self.settings.lathe, self.translate))
         put("task_state_string", self.translate(STATES.get(s.task_state, STATES[linuxcnc.STATE_OFF])))
+        put("control_name", self.translate("Control: %s") % s.control_name if s.control_pid else "")
         self.follow_overrides()
         self.follow_modes()
         self.follow_moved_axis()

@@ -1,21 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Several commands that belong together: none is given once one before it has not been done.
 
-    with Sequence() as run:
-        run.mode(linuxcnc.MODE_MDI)
+    with Sequence("measure the plate") as run:
         run.mdi("G38.2 Z-10 F50", timeout=120)
         depth = run.stat.probed_position[2]
 
-A command ends in exactly one way: done, failed (Failed, with what the operator was told), aborted
-(Aborted: another client's command came between) or late (TimedOut: it goes on, or never
+A sequence has control of the machine until its end: what other programs and panels command is
+refused, except what stops or slows (docs/nml.md). Each command brings the mode it needs. A command ends in exactly one way: done, failed (Failed, with what the operator was told), aborted
+(Aborted: somebody stopped the machine, or another command of this program came between) or late (TimedOut: it goes on, or never
 came through). Only after `done` does the sequence go on; every other end raises, and the
 sequence takes no more commands. Times are those of the controller's clock.
 """
+import os
+
 import linuxcnc
 
 from kerf import clock
 
 POLL_S = 0.01
+MODES = {"mdi": linuxcnc.MODE_MDI, "auto": linuxcnc.MODE_AUTO, "program_open": linuxcnc.MODE_AUTO,
+         "home": linuxcnc.MODE_MANUAL, "unhome": linuxcnc.MODE_MANUAL, "jog": linuxcnc.MODE_MANUAL,
+         "teleop_enable": linuxcnc.MODE_MANUAL, "override_limits": linuxcnc.MODE_MANUAL}  # that commands need
 
 
 class Broken(Exception):
@@ -31,7 +36,11 @@ class Failed(Broken):
 
 
 class Aborted(Broken):
-    """another client's command came between"""
+    """the machine was stopped, or another command came between"""
+
+
+class Busy(Broken):
+    """another program has control of the machine"""
 
 
 class TimedOut(Broken):
@@ -43,15 +52,21 @@ class Ended(Broken):
 
 
 class Sequence:
-    """Gives commands one after the other. Every method of linuxcnc.command is there, with `timeout` (s)."""
+    """Gives commands one after the other. Every method of linuxcnc.command is there, with `timeout` (s).
 
-    def __init__(self, timeout=60.0):
+    name: who has control, for the others. Busy: another program has."""
+
+    def __init__(self, name="a script", timeout=60.0):
         self.stat, self.command, self.timeout = linuxcnc.stat(), linuxcnc.command(), timeout
         self.log = linuxcnc.message_log()
         self.broken = False
-        self._last = None
         self.stat.poll()
         self._catch_up()
+        self.command.take_control(name)
+        self.stat.poll()
+        if self.stat.control_pid != os.getpid():
+            self._end(Busy, "take_control")
+        self._last = self.command.serial
 
     def __enter__(self):
         return self
@@ -61,6 +76,10 @@ class Sequence:
         if kind is not None and not issubclass(kind, Broken):
             self.broken = True
             self.command.abort()
+        self.command.release_control()
+
+    def _undisturbed(self):
+        return self.stat.control_pid == os.getpid() and self.stat.control_serial <= self._last
 
     def _catch_up(self):
         try:
@@ -85,21 +104,26 @@ class Sequence:
         if self.broken:
             raise Ended(what, [])
         self.stat.poll()
-        if self._last is not None and self.stat.echo_serial_number > self._last:
+        if name in MODES and self.stat.task_mode != MODES[name]:
+            self._run(f"mode {MODES[name]} for {what}", self.command.mode, (MODES[name],), timeout)
+        self._run(what, method, args, timeout)
+
+    def _run(self, what, method, args, timeout):
+        if not self._undisturbed():
             self._end(Aborted, what)
         self._catch_up()
         end = clock.now() + timeout
         method(*args)
-        serial = self._last = self.command.serial
+        self._last = self.command.serial
         while True:
             self.stat.poll()
-            ahead = self.stat.echo_serial_number - serial
-            if ahead > 0:
+            if not self._undisturbed():
                 self._end(Aborted, what)
-            if ahead == 0 and self.stat.state == linuxcnc.RCS_ERROR:
-                self._end(Failed, what)
-            if ahead == 0 and self.stat.state == linuxcnc.RCS_DONE:
-                return
+            if self.stat.control_serial == self._last:
+                if self.stat.control_state == linuxcnc.RCS_ERROR:
+                    self._end(Failed, what)
+                if self.stat.control_state == linuxcnc.RCS_DONE:
+                    return
             if clock.now() >= end:
                 self._end(TimedOut, what)
             clock.sleep(POLL_S)

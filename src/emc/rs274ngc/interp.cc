@@ -745,6 +745,16 @@ void Interp::coolant_switched(bool mist, bool flood)
     s->flood = flood;
 }
 
+void Interp::outputs_stopped()
+{
+    for (int level = 0; level <= s->call_level; ++level) {
+        int *m = s->frames[level].modes.m;
+        m[2] = 5;
+        m[4] = 9;
+        m[5] = -1;
+    }
+}
+
 // ---- asking ------------------------------------------------------------------------
 
 void Interp::active_g_codes(int *codes) const { active_g(*s, codes); }

@@ -112,6 +112,8 @@ class Interp
     /// The operator switched these by hand while nothing runs: saved states (M70, M73) have it so.
     void spindle_switched(int spindle, CANON_DIRECTION turning); ///< -1: all
     void coolant_switched(bool mist, bool flood);
+    /// A stop switched spindles and coolant off: states saved before do not bring them back.
+    void outputs_stopped();
 
     // ---- what is going on -----------------------------------------------------
     /// 0 line, 1 motion, 2 group 0, 3 plane, 4 comp, ...: codes times ten, -1 none

@@ -11,23 +11,20 @@
 #include <utility>
 #include <vector>
 
+#include "process_watch.hh"
+
 class JogOwners {
 public:
     using Jog = std::pair<int, int>; // joint (axis) number; 1 joint, 0 axis
-    JogOwners() = default;
-    ~JogOwners() { clear(); }
-    JogOwners(const JogOwners &) = delete;
-    JogOwners &operator=(const JogOwners &) = delete;
-
     // Process pid has started this jog, whoever held it before. 0: nobody knows.
     void started(Jog jog, pid_t pid);
-    void ended(Jog jog);
-    void clear();
+    void ended(Jog jog) { owners_.erase(jog); }
+    void clear() { owners_.clear(); }
     bool any() const { return !owners_.empty(); }
     // The jogs whose process has ended; they are forgotten.
     std::vector<Jog> orphans();
 private:
-    std::map<Jog, int> owners_; // a descriptor of the process: a reused pid is another one
+    std::map<Jog, ProcessWatch> owners_;
 };
 
 #endif

@@ -76,12 +76,17 @@ int main(int argc, char **argv) {
     for (auto &c : channels)
         for (auto &l : lines)
             if (l.name == c->buffer_name()) server.add(*c, l);
-    // A client that has gone holds no jog.
+    // A client that has gone holds no jog and no control.
+    std::map<int, NML *> in_control;
     std::map<int, std::map<std::pair<int, int>, NML *>> jogs; // of a client: (number, mode)
     server.wrote = [&](int client, NML &channel, const NMLmsg &m) {
         if (m._type == EMC_JOG_CONT_TYPE) {
             const EMC_JOG_CONT &j = static_cast<const EMC_JOG_CONT &>(m);
             jogs[client][{j.joint_or_axis, j.jjogmode}] = &channel;
+        } else if (m._type == EMC_TASK_TAKE_CONTROL_TYPE) {
+            in_control[client] = &channel;
+        } else if (m._type == EMC_TASK_RELEASE_CONTROL_TYPE) {
+            in_control.erase(client);
         } else if (m._type == EMC_JOG_STOP_TYPE) {
             const EMC_JOG_STOP &j = static_cast<const EMC_JOG_STOP &>(m);
             for (auto &c : jogs) c.second.erase({j.joint_or_axis, j.jjogmode});
@@ -95,6 +100,11 @@ int main(int argc, char **argv) {
             j.second->write_raw(stop_it, false, nullptr);
         }
         jogs.erase(client);
+        if (auto it = in_control.find(client); it != in_control.end()) {
+            EMC_TASK_RELEASE_CONTROL release;
+            it->second->write_raw(release, false, nullptr);
+            in_control.erase(it);
+        }
     };
     server.listen(ini.findStringV("NML_BIND", "EMC", "127.0.0.1"));
     server.run(&stop);

@@ -35,8 +35,8 @@ bool MotionLink::attach(const linuxcnc::IniFile &ini) {
 
 bool MotionLink::alive() {
     if (!attached_) return false;
-    usrmotReadEmcmotStatus(&status_);
-    return status_.heartbeat > 0;
+    usrmotReadEmcmotStatus(status_);
+    return status_->heartbeat > 0;
 }
 
 emcmot_command_t MotionLink::command(cmd_code_t code) const {
@@ -530,7 +530,7 @@ int MotionLink::set_aout(int index, double start, double end, int now) {
 
 bool MotionLink::spindle_runs_at(int spindle, double speed, double factor) const {
     if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || speed == 0 || factor != 0) return false;
-    const spindle_status_t &s = status_.spindle_status[spindle];
+    const spindle_status_t &s = status_->spindle_status[spindle];
     return s.state && last_state_ && s.speed == speed && s.css_factor == 0 && !s.brake;
 }
 
@@ -575,10 +575,9 @@ int MotionLink::spindle_orient(int spindle, double orientation, int mode) {
 
 void MotionLink::update(std::string *error) {
     error->clear();
-    emcmot_status_t fresh;
-    int r = usrmotReadEmcmotStatus(&fresh);
-    if (r == 0) status_ = fresh; // a copy torn by a fast writer is dropped: the next cycle reads again
-    const emcmot_status_t &s = status_;
+    const int r = usrmotReadEmcmotStatus(next_status_);
+    if (r == 0) std::swap(status_, next_status_); // a copy torn by a fast writer is dropped: the next cycle reads again
+    const emcmot_status_t &s = *status_;
     bool config_changed = r == 0 && s.config_num != config_num_;
     if (config_changed && usrmotReadEmcmotConfig(&config_) == 0) config_num_ = s.config_num;
 
@@ -715,7 +714,7 @@ int MotionLink::save_positions(const std::string &file) {
     FILE *f = fopen(fresh.c_str(), "w");
     if (!f) return -1;
     bool good = true;
-    for (const emcmot_joint_status_t &j : status_.joint_status) good = fprintf(f, "%.17f\n", j.pos_fb) > 0 && good;
+    for (const emcmot_joint_status_t &j : status_->joint_status) good = fprintf(f, "%.17f\n", j.pos_fb) > 0 && good;
     good = fflush(f) == 0 && fsync(fileno(f)) == 0 && good;
     good = fclose(f) == 0 && good;
     return good && rename(fresh.c_str(), file.c_str()) == 0 ? 0 : -1;

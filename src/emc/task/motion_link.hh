@@ -19,6 +19,7 @@ class MotionLink {
 public:
     explicit MotionLink(EMC_STAT &stat) : stat_(stat) {}
     ~MotionLink();
+    MotionLink(const MotionLink &) = delete;
 
     // Attaches to the segment of [EMCMOT]SHMEM_KEY. False: motion is not there yet.
     bool attach(const linuxcnc::IniFile &ini);
@@ -110,9 +111,9 @@ public:
     // ---- status ----
     // Copies motion's status into stat; at most one error text goes to *error (else empty).
     void update(std::string *error);
-    const emcmot_status_t &raw() const { return status_; }
-    EmcPose external_offsets() const { return status_.eoffset_pose; }
-    bool external_offsets_applied() const { return status_.external_offsets_applied != 0; }
+    const emcmot_status_t &raw() const { return *status_; }
+    EmcPose external_offsets() const { return status_->eoffset_pose; }
+    bool external_offsets_applied() const { return status_->external_offsets_applied != 0; }
 
     // Positions of all joints to and from [TRAJ]POSITION_FILE.
     int load_positions(const std::string &file);
@@ -124,7 +125,8 @@ private:
     emcmot_command_t axis_command(cmd_code_t code, int a) const;
     int send_move(emcmot_command_t &c);
     EMC_STAT &stat_;
-    emcmot_status_t status_{};
+    emcmot_status_t statuses_[2] = {};
+    emcmot_status_t *status_ = &statuses_[0], *next_status_ = &statuses_[1]; // the last whole one; the other is read into
     emcmot_config_t config_{};
     int id_ = 0, config_num_ = -1;
     bool attached_ = false;

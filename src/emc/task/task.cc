@@ -284,6 +284,7 @@ void Task::cycle() {
     recover();
     watch_program_error();
     watch_jogs();
+    watch_control();
     journal_.update(stat_, program_, stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE);
     send_messages();
     publish();
@@ -295,7 +296,17 @@ void Task::read_command() {
     command_ = AnyMessage(*command_channel_->get_address());
     command_serial_ = static_cast<const RCS_CMD_MSG &>(*command_).serial_number;
     command_writer_ = command_channel_->last_writer();
+    refused_stranger_ = !control_.allows(*command_, command_writer_);
+    if (refused_stranger_) return; // what became of the owner's command stays known
     plan_error_ = execute_error_ = false;
+    if (!control_.owned_by(command_writer_)) return;
+    control_error_ = false;
+    stat_.control_serial = command_serial_;
+}
+
+void Task::command_failed() {
+    execute_error_ = true;
+    control_error_ = true;
 }
 
 void Task::update_motion() {
@@ -357,7 +368,8 @@ void Task::watch_errors() {
         snprintf(text, sizeof text, io_error_.c_str(), stat_.io.reason);
         operator_error(text);
     }
-    execute_error_ = true; // the command under way has failed, also for who looks later
+    command_failed(); // also for who looks later
+    failed_at(stat_.motion.status == RCS_ERROR && stat_.task.motionLine > 0 ? stat_.task.motionLine : stat_.task.currentLine);
     abort_task();
     io_.abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
     all_spindles_off();
@@ -402,6 +414,10 @@ void Task::watch_jogs() {
     }
 }
 
+void Task::watch_control() {
+    if (control_.taken() && control_.owner_ended()) control_.release();
+}
+
 bool Task::all_homed() const {
     const EMC_TRAJ_STAT &t = stat_.motion.traj;
     for (int j = 0; j < t.joints; j++)
@@ -420,6 +436,7 @@ void Task::publish() {
     t.state = stat_.io.aux.estop ? EMC_TASK_STATE_ESTOP : !traj.enabled ? EMC_TASK_STATE_ESTOP_RESET : EMC_TASK_STATE_ON;
     bool on = t.state == EMC_TASK_STATE_ON;
     if (was_on_ && !on) {
+        control_.release();
         abort_task();
         all_spindles_off();
         io_.abort(EMC_ABORT_TASK_STATE_NOT_ON);
@@ -457,13 +474,15 @@ void Task::publish() {
     stat_.echo_serial_number = t.echo_serial_number = serial;
     stat_.command_type = t.command_type = type;
     int status;
-    if (plan_error_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR || stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
+    const bool done = idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() && !busy && restore_ != Restore::looking;
+    if (plan_error_ || refused_stranger_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR || stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
         status = RCS_ERROR;
-    else if (idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() && !busy && restore_ != Restore::looking)
-        status = RCS_DONE;
     else
-        status = RCS_EXEC;
+        status = done ? RCS_DONE : RCS_EXEC;
     stat_.status = t.status = status;
+    stat_.control_pid = control_.pid();
+    copy_text(stat_.control_name, control_.name().c_str());
+    stat_.control_state = control_error_ ? RCS_ERROR : done ? RCS_DONE : RCS_EXEC;
     status_channel_->write(stat_);
 }
 
@@ -536,6 +555,7 @@ void Task::abort_mdi() {
 void Task::all_spindles_off() {
     for (int s = 0; s < stat_.motion.traj.spindles; s++) motion_.spindle_off(s);
     if (canon_) canon_->spindle_is(-1, 0); // no S word starts them again
+    if (interp_) interp_->outputs_stopped();
 }
 
 // The interpreter learns where the machine is now, not where it was at the last cycle's end.

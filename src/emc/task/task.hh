@@ -15,6 +15,7 @@
 #include <string>
 
 #include "accept.hh"
+#include "control.hh"
 #include "dry_run.hh"
 #include "ini_settings.hh"
 #include "interp.hh"
@@ -50,6 +51,7 @@ private:
     void watch_errors();
     void watch_program_error();
     void watch_jogs();
+    void watch_control();
     void publish();
     void open_journal();
     bool connect_channels();
@@ -59,6 +61,8 @@ private:
 
     // ---- plan ----
     int refuse(const NMLmsg &m, Situation s);
+    int refuse_stranger(const NMLmsg &m);
+    int take_control(const char *name);
     int do_command(const NMLmsg &m); // immediate
     int set_mode(int mode);
     bool hands_at_the_spindle();
@@ -89,6 +93,9 @@ private:
     void forget_restore();
 
     void interp_failed(int code, bool executing);
+    const char *tell_fault(int code); // the interpreter's last, to the operator and in the status; its text
+    void forget_fault();
+    void failed_at(int line);         // of the program: where an order or a move failed
     void wait_and_synch();
 
     // ---- execute ----
@@ -155,6 +162,10 @@ private:
     Journal journal_;
     int64_t jogs_looked_at_ = 0;
     bool plan_error_ = false, execute_error_ = false;
+    Control control_;
+    bool refused_stranger_ = false; // the last command: of a program that has no control
+    bool control_error_ = false;    // the last command of the one that has control has failed
+    void command_failed();          // ... in its execution
     InterpList::Entry pending_;  // taken from the list, not yet issued
     bool wait_ = false;          // a queue buster: no reading until all is done
     bool synching_ = false;

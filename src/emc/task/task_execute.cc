@@ -161,8 +161,12 @@ void Task::issue_pending() {
     pending_ = {};
     int after = postcondition(*m);
     set_exec(EMC_TASK_EXEC_DONE);
-    if (issue(*m) != 0) set_exec(EMC_TASK_EXEC_ERROR);
-    else if (stat_.task.execState == EMC_TASK_EXEC_DONE) set_exec(after);
+    if (issue(*m) != 0) {
+        failed_at(stat_.task.currentLine);
+        set_exec(EMC_TASK_EXEC_ERROR);
+    } else if (stat_.task.execState == EMC_TASK_EXEC_DONE) {
+        set_exec(after);
+    }
     eager_ = true;
 }
 
@@ -255,6 +259,7 @@ void Task::wait_orient() {
 // command at once.
 void Task::recover() {
     if (stat_.task.execState != EMC_TASK_EXEC_ERROR) return;
+    failed_at(stat_.task.currentLine);
     abort_task();
     io_.abort(EMC_ABORT_TASK_EXEC_ERROR);
     all_spindles_off();
@@ -264,7 +269,7 @@ void Task::recover() {
     on_abort(EMC_ABORT_TASK_EXEC_ERROR);
     stat_.task.currentLine = 0;
     synch_later();
-    execute_error_ = true;
+    command_failed();
 }
 
 // ---- orders: of the list, and those that the operator may give too ----

@@ -27,7 +27,7 @@ void Task::plan() {
     if (fresh) {
         const NMLmsg &m = *command_;
         if (error_stop_due_) watch_program_error();
-        Answer a = accept(m._type, s);
+        Answer a = refused_stranger_ ? Answer::no : accept(m._type, s);
         if (a == Answer::manual) a = t.mode == EMC_TASK_MODE_MANUAL ? Answer::yes : Answer::ignore;
         int r = 0;
         switch (a) {
@@ -43,10 +43,14 @@ void Task::plan() {
             if (m._type == EMC_TASK_PLAN_RUN_TYPE && motion_.external_offsets_applied()) r = -1;
             break;
         default:
-            r = refuse(m, s);
+            r = refused_stranger_ ? refuse_stranger(m) : refuse(m, s);
             break;
         }
-        if (r != 0) plan_error_ = true;
+        if (Control::ends_control(m)) control_.release();
+        if (r != 0 && !refused_stranger_) {
+            plan_error_ = true;
+            control_error_ |= control_.owned_by(command_writer_);
+        }
     }
     switch (s) {
     case Situation::auto_idle: if (restore_ == Restore::looking) look_ahead(); break;
@@ -75,6 +79,21 @@ int Task::refuse(const NMLmsg &m, Situation s) {
     case Situation::mdi: snprintf(text, sizeof text, "can't do that (%s:%d) in MDI mode", name, m._type); break;
     }
     operator_error(text);
+    return -1;
+}
+
+int Task::refuse_stranger(const NMLmsg &m) {
+    operator_error((control_.name() + " has control of the machine: " + emc_symbol_lookup(m._type) + " of another program was refused. Abort ends its control").c_str());
+    return -1;
+}
+
+int Task::take_control(const char *name) {
+    if (control_.take(command_writer_, *name ? name : "a program")) {
+        stat_.control_serial = command_serial_;
+        control_error_ = false;
+        return 0;
+    }
+    operator_error(control_.taken() ? (control_.name() + " has control of the machine").c_str() : "Nobody knows which program wants control of the machine");
     return -1;
 }
 
@@ -107,6 +126,10 @@ int Task::do_command(const NMLmsg &m) {
         else return plan_run(line);
     case EMC_TASK_PLAN_RESTORE_TYPE: return plan_restore(as<EMC_TASK_PLAN_RESTORE>(m).line);
     case EMC_TASK_PLAN_RESTORE_CONFIRM_TYPE: return plan_restore_confirm(as<EMC_TASK_PLAN_RESTORE_CONFIRM>(m).line);
+    case EMC_TASK_TAKE_CONTROL_TYPE: return take_control(as<EMC_TASK_TAKE_CONTROL>(m).name);
+    case EMC_TASK_RELEASE_CONTROL_TYPE:
+        if (control_.owned_by(command_writer_)) control_.release();
+        return 0;
     case EMC_TASK_PLAN_STEP_TYPE: return plan_step();
     case EMC_TASK_PLAN_RESUME_TYPE: return plan_resume();
     case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
@@ -328,8 +351,7 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
     EMC_TASK_STAT &t = stat_.task;
     forget_restore();
     t.motionLine = t.currentLine = t.readLine = 0;
-    stat_.error_line = stat_.error_column = 0;
-    stat_.error_file[0] = stat_.error_fix[0] = 0;
+    forget_fault();
     int r = interp_->open(name.c_str());
     if (r != INTERP_OK) {
         interp_failed(r, false);
@@ -408,6 +430,7 @@ int Task::plan_run(int line) {
     stop_stepping();
     error_stop_due_ = false;
     t.interpreter_errcode = 0;
+    forget_fault();
     if (!interp_->file_open()) {
         int r = interp_->open(program_.c_str());
         if (r != INTERP_OK) {
@@ -464,8 +487,7 @@ int Task::plan_resume() {
     return r;
 }
 
-// Says what went wrong; the program ends when all it asked for before has been done.
-void Task::interp_failed(int code, bool executing) {
+const char *Task::tell_fault(int code) {
     stat_.task.interpreter_errcode = code;
     const Fault &f = interp_->fault();
     stat_.error_line = f.line;
@@ -474,6 +496,24 @@ void Task::interp_failed(int code, bool executing) {
     copy_text(stat_.error_fix, f.fix.c_str());
     const char *text = interp_->error_text(code);
     operator_error(*text ? text : "Unknown interpreter error");
+    return text;
+}
+
+void Task::forget_fault() {
+    stat_.error_line = stat_.error_column = 0;
+    stat_.error_file[0] = stat_.error_fix[0] = 0;
+}
+
+void Task::failed_at(int line) {
+    if (stat_.error_line > 0 || line <= 0 || stat_.task.mode != EMC_TASK_MODE_AUTO || stat_.task.interpState == EMC_TASK_INTERP_IDLE) return;
+    stat_.error_line = line;
+    copy_text(stat_.error_file, stat_.task.file);
+}
+
+// Says what went wrong; the program ends when all it asked for before has been done.
+void Task::interp_failed(int code, bool executing) {
+    const char *text = tell_fault(code);
+    const Fault &f = interp_->fault();
     if (f.line > 0 && !f.text.empty()) {
         printf("%s\n", f.report().c_str());
         fflush(stdout);
@@ -598,8 +638,7 @@ int Task::mdi_run(const char *text) {
     t.interpState = EMC_TASK_INTERP_READING;
     t.interpreter_errcode = 0;
     mdi_active_ = true;
-    stat_.error_line = stat_.error_column = 0;
-    stat_.error_file[0] = stat_.error_fix[0] = 0;
+    forget_fault();
     list_.set_level(0);
     return mdi_result(interp_->execute(text, 0));
 }
@@ -610,20 +649,14 @@ int Task::mdi_result(int r) {
     mdi_continue_ = mdi_sliced_ = false;
     note_offsets();
     if (r > INTERP_MIN_ERROR) {
-        t.interpreter_errcode = r;
-        const Fault &f = interp_->fault();
-        stat_.error_line = f.line;
-        stat_.error_column = f.column;
-        copy_text(stat_.error_file, f.file.c_str());
-        copy_text(stat_.error_fix, f.fix.c_str());
-        operator_error(interp_->error_text(r));
+        tell_fault(r);
         list_.clear();
         abort_task();
         io_.abort(EMC_ABORT_INTERPRETER_ERROR_MDI);
         all_spindles_off();
         abort_mdi();
         on_abort(EMC_ABORT_INTERPRETER_ERROR_MDI, "interpreter error during MDI");
-        execute_error_ = true;
+        command_failed();
         return -1;
     }
     if (r == INTERP_EXECUTE_FINISH) {
@@ -645,7 +678,7 @@ int Task::mdi_result(int r) {
 bool Task::mdi_goes_on() {
     if (!mdi_continue_) return false;
     const bool ready = mdi_sliced_ ? list_.size() <= interp_max_len_ : idle();
-    if (ready && mdi_result(interp_->execute(nullptr)) != 0) execute_error_ = true;
+    if (ready && mdi_result(interp_->execute(nullptr)) != 0) command_failed();
     return true;
 }
 
@@ -655,7 +688,7 @@ void Task::mdi_cycle() {
     if (!mdi_queue_.empty()) {
         std::string next = mdi_queue_.front();
         mdi_queue_.pop_front();
-        if (mdi_run(next.c_str()) != 0) execute_error_ = true;
+        if (mdi_run(next.c_str()) != 0) command_failed();
         return;
     }
     if (t.interpState != EMC_TASK_INTERP_IDLE && idle() && stat_.motion.traj.queue == 0 && stat_.io.status == RCS_DONE) {

@@ -181,7 +181,7 @@ void Task::restore_step() {
     if (!idle() || stat_.motion.traj.queue > 0 || stat_.motion.status != RCS_DONE || stat_.io.status != RCS_DONE) return;
     if (stat_.io.tool.toolInSpindle != dry_->tool()) {
         operator_error(("The tool change did not bring T" + std::to_string(dry_->tool()) + ": the start is given up").c_str());
-        execute_error_ = true;
+        command_failed();
         forget_restore();
         stat_.task.interpState = EMC_TASK_INTERP_IDLE;
         return;

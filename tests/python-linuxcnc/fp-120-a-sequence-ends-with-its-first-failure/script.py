@@ -40,9 +40,6 @@ c.wait_complete()
 
 def intruder(run):
     """Another client aborts while the dwell runs."""
-    import threading
-
-    real = run.command.wait_complete
     other = module.command()
     poll_once = run.stat.poll
     calls = []

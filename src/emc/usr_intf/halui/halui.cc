@@ -583,20 +583,21 @@ void Halui::jogs() {
 }
 
 void Halui::mdi() {
+    const bool may = stat_.control_pid == 0 || stat_.control_pid == getpid(); // else task refuses it, and tells the operator
     for (size_t n = 0; n < mdi_.size(); n++) {
         if (!mdi_[n].rose()) continue;
-        if (!**mdi_running_) {
+        if (may && !**mdi_running_) {
             remembered_mode_ = stat_.task.mode;
             **mdi_running_ = 1;
         }
-        set_mode(EMC_TASK_MODE_MDI);
+        if (may) set_mode(EMC_TASK_MODE_MDI);
         EMC_TASK_PLAN_EXECUTE m;
         copy_text(m.command, mdi_commands_[n].c_str());
         give(m);
         refresh();
         return; // one a loop: the status of this one must be seen before it may look done
     }
-    if (mdi_running_ && **mdi_running_ && stat_.status == RCS_DONE) {
+    if (may && mdi_running_ && **mdi_running_ && stat_.status == RCS_DONE) {
         if (remembered_mode_ != EMC_TASK_MODE_MDI) set_mode(remembered_mode_);
         **mdi_running_ = 0;
     }

@@ -300,6 +300,12 @@ void automatic(Command &c, const py::args &a) {
     }
 }
 
+void take_control(Command &c, const std::string &name) {
+    EMC_TASK_TAKE_CONTROL m;
+    copy_text(m.name, name.c_str());
+    c.give(m);
+}
+
 void restore(Command &c, int line) {
     EMC_TASK_PLAN_RESTORE m;
     m.line = line;
@@ -431,6 +437,8 @@ void define_command(py::module_ &m) {
     cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<Command>(); }));
     cls.def_property_readonly("serial", [](const Command &c) { return c.client.serial(); }, "serial number of the last command");
     cls.def("abort", [](Command &c) { c.plain<EMC_TASK_ABORT>(); }, "Stops everything");
+    cls.def("take_control", &take_control, py::arg("name"), "take_control(name): only this program commands the machine from now on; see stat.control_pid");
+    cls.def("release_control", [](Command &c) { c.plain<EMC_TASK_RELEASE_CONTROL>(); }, "Everybody commands the machine again");
     cls.def("restore", &restore, py::arg("line"), "restore(line): shows what a start at that line would restore first (stat.restore_text); nothing moves");
     cls.def("restore_confirm", &restore_confirm, py::arg("line"), "restore_confirm(line): restores what was shown for that line, then runs from there");
     cls.def("auto", checked(automatic), "auto(AUTO_RUN, line) or auto(AUTO_PAUSE | AUTO_RESUME | AUTO_STEP | AUTO_REVERSE | AUTO_FORWARD)");
