@@ -95,6 +95,15 @@ def setp(pin, value):
     halcmd("setp", pin, str(value))
 
 
+def tools_in_pockets(file=None):
+    """(pocket, tool) of the shared tool data, or of the lines of a tool table or database file."""
+    if file:
+        return sorted((int(l.split()[1][1:]), int(l.split()[0][1:])) for l in open(file) if l.startswith("T"))
+    text = clock.run(["tool_mmap_read", "0", "20"], stdout=subprocess.PIPE, text=True).stdout
+    rows = [l.split() for l in text.splitlines()[2:]]
+    return sorted((int(r[2]), int(r[1])) for r in rows if int(r[1]) >= 0)
+
+
 def xyz(digits=4):
     poll()
     return tuple(round(v, digits) + 0.0 for v in s.position[:3])

@@ -1,25 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # FP-080, FP-084: pockets differ from numbers; T of the tool in the spindle drops older preselections;
 # an abort at each moment of a change leaves table, status and file agreeing.
-import subprocess
-
 from mill import *
-
-
-def table():
-    """(pocket, tool) of the shared tool data."""
-    text = clock.run(["tool_mmap_read", "0", "10"], stdout=subprocess.PIPE, text=True).stdout
-    rows = [l.split() for l in text.splitlines()[2:]]
-    return sorted((int(r[2]), int(r[1])) for r in rows if int(r[1]) >= 0)
-
-
-def file():
-    return sorted((int(l.split()[1][1:]), int(l.split()[0][1:])) for l in open("mill.tbl") if l.startswith("T"))
 
 
 def show(what, result=""):
     poll()
-    print(f"{what:24} {result} T{s.tool_in_spindle} prepared {s.pocket_prepped} number {getp('iocontrol.0.tool-number')} table {table()}", "" if table() == file() else f"FILE {file()}", messages())
+    shared, kept = tools_in_pockets(), tools_in_pockets("mill.tbl")
+    print(f"{what:24} {result} T{s.tool_in_spindle} prepared {s.pocket_prepped} number {getp('iocontrol.0.tool-number')} table {shared}",
+          "" if shared == kept else f"FILE {kept}", messages())
 
 
 on()

@@ -2,20 +2,8 @@
 # FP-084, FP-088: with a random changer the database hears who goes to which pocket, and after each step, a
 # reload and a stop in the middle, shared data, status and database agree.
 import os
-import subprocess
 
 from mill import *
-
-
-def table():
-    """(pocket, tool) of the shared tool data."""
-    text = clock.run(["tool_mmap_read", "0", "20"], stdout=subprocess.PIPE, text=True).stdout
-    rows = [l.split() for l in text.splitlines()[2:]]
-    return sorted((int(r[2]), int(r[1])) for r in rows if int(r[1]) >= 0)
-
-
-def database():
-    return sorted((int(l.split()[1][1:]), int(l.split()[0][1:])) for l in open("db.txt") if l.startswith("T"))
 
 
 def log():
@@ -27,8 +15,8 @@ def log():
 
 def show(what, result=""):
     poll()
-    print(f"{what}: {result} T{s.tool_in_spindle} number {getp('iocontrol.0.tool-number')} from {s.tool_from_pocket} {table()}",
-          "" if table() == database() else f"DATABASE {database()}", log(), messages())
+    print(f"{what}: {result} T{s.tool_in_spindle} number {getp('iocontrol.0.tool-number')} from {s.tool_from_pocket} {tools_in_pockets()}",
+          "" if tools_in_pockets() == (kept := tools_in_pockets("db.txt")) else f"DATABASE {kept}", log(), messages())
 
 
 on()
