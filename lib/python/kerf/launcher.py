@@ -351,8 +351,8 @@ class Session:
         if self.run(*self.halcmd, "start"):
             raise Failure("halcmd start failed")
         self.start_applications()
-        self.wait_ready()
         self.watch()
+        self.wait_ready()
         return self.run_display()
 
     def show_splash(self):
@@ -453,6 +453,8 @@ class Session:
         begun = time.monotonic()
 
         def ready():
+            if not any(name == self.task[:15] and state_of(pid) not in "ZX" for pid, name in self.watched.items()):
+                raise Failure(f"TASK program {self.task} ended while the machine was started: see its messages above")
             try:
                 return float(self.output("halcmd", "getp", "ini.traj_max_velocity") or 0) != 0
             except ValueError:

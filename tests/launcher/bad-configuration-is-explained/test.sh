@@ -16,5 +16,6 @@ try "missing HAL file" 's/^HALFILE = spindle.hal/HALFILE = nowhere.hal/' 'nowher
 try "bad INI line" 's/^JOINTS = 3/JOINTS 3/' 'error:'
 try "bad number of joints" 's/^JOINTS = 3/JOINTS = 30/' 'error:'
 try "missing task" 's/^TASK = milltask/TASK = notask/' 'notask'
+try "interpreter that can not begin" 's/^PARAMETER_FILE.*/&\nREMAP = M400 modalgroup=10 python=nofunction/' 'TASK program|nofunction'
 linuxcnc -r nowhere.ini < /dev/null 2>&1; echo "status $?"
 rm -rf machine out.txt
