@@ -174,6 +174,14 @@ class Builder:
             self.component.setprefix(before)
 
 
+def gone(window):
+    """The window was closed, or its display."""
+    try:
+        return not window.winfo_exists()
+    except tkinter.TclError:
+        return True
+
+
 def create_vcp(master, component=None, path=None):
     """Makes the panel of `filename` in master and keeps it up to date. The component gets the pins; without one, a
     component pyvcp is made. Raises SystemExit (mistakes in the file), NoPanel, OSError."""
@@ -190,6 +198,10 @@ def create_vcp(master, component=None, path=None):
         except (RuntimeError, hal.error) as error:      # the component has left HAL
             print(f"pyvcp: {error}")
             return
+        except tkinter.TclError:
+            if gone(master):
+                return
+            raise
         master.after(POLL_MS, poll)
     poll()
     return component

@@ -3,13 +3,21 @@
  * report.c - operator errors of motmod.   In, out: motion_priv.h   Thread: any
  */
 #include <stdarg.h>
+#include <string.h>
 #include "motion_priv.h"
 
 static rtapi_msg_handler_t console; /* the handler before ours */
 
+/* A message for the operator has no newline; on the console it is a line of its own. */
+static void console_line(msg_level_t level, const char *fmt, va_list ap)
+{
+    char line[EMCMOT_ERROR_LEN / 2];
+    rtapi_snprintf(line, sizeof(line), "%s\n", fmt);
+    console(level, line, ap);
+}
+
 void report_error(const char *fmt, ...)
 {
-    char line[EMCMOT_ERROR_LEN / 2]; /* the format with a newline */
     va_list ap;
     va_start(ap, fmt);
     if (motion_state_.shared)
@@ -17,9 +25,8 @@ void report_error(const char *fmt, ...)
     va_end(ap);
     if (!console || rtapi_get_msg_level() < RTAPI_MSG_ERR)
         return;
-    rtapi_snprintf(line, sizeof(line), "%s\n", fmt);
     va_start(ap, fmt);
-    console(RTAPI_MSG_ERR, line, ap);
+    console_line(RTAPI_MSG_ERR, fmt, ap);
     va_end(ap);
 }
 
@@ -31,7 +38,11 @@ static void hook(msg_level_t level, const char *fmt, va_list ap)
         emcmotErrorPutfv(&motion_state_.shared->error, fmt, copy);
         va_end(copy);
     }
-    if (console)
+    if (!console)
+        return;
+    if (level == RTAPI_MSG_ERR && fmt[0] && fmt[strlen(fmt) - 1] != '\n')
+        console_line(level, fmt, ap);
+    else
         console(level, fmt, ap);
 }
 
