@@ -127,10 +127,17 @@ const char *host_realtime_name(rtapi_realtime_type_t type)
     return type >= 0 && (size_t)type < sizeof names / sizeof *names ? names[type] : "Uninitialized";
 }
 
-static bool forced(void)
+/* [init] LINUXCNC_FORCE_REALTIME: an integer, 0 or none: no. Another word is no, and said so. */
+static bool find_forced(void)
 {
     const char *env = getenv("LINUXCNC_FORCE_REALTIME");
-    return env && strtol(env, NULL, 10) != 0;
+    char *end;
+    long value = env ? strtol(env, &end, 10) : 0;
+    if (env && (end == env || *end) && *env) {
+        fprintf(stderr, "LINUXCNC_FORCE_REALTIME=%s is not an integer: set it to 1 to force realtime; %s\n", env,
+                value ? "taken as 1" : "ignored");
+    }
+    return value != 0;
 }
 
 /* May this thread become SCHED_FIFO? Tries it and goes back. 0 or an errno. */
@@ -148,7 +155,8 @@ static int probe_fifo(void)
 static rtapi_realtime_type_t find_type(void)
 {
     struct utsname kernel;
-    if (!forced()) {
+    const bool forced = find_forced();
+    if (!forced) {
         int err = probe_fifo();
         if (err) {
             fprintf(stderr,
@@ -170,7 +178,7 @@ static rtapi_realtime_type_t find_type(void)
         if (strcasestr(kernel.version, "PREEMPT RT") || strcasestr(kernel.version, "PREEMPT_RT")) {
             return REALTIME_TYPE_PREEMPT_RT;
         }
-        if (forced()) {
+        if (forced) {
             if (strcasestr(kernel.version, "PREEMPT_DYNAMIC") || strcasestr(kernel.version, "PREEMPT DYNAMIC")) {
                 return REALTIME_TYPE_PREEMPT_DYNAMIC;
             }
