@@ -18,6 +18,7 @@
 #define MOST_VEL 0.5     /* of its velocity: only a table steeper than that would need more */
 #define SLOPE_MARGIN 1.1 /* for catching up with a table's slope at full speed */
 #define STILL 1e-7       /* units/s: speeds below are rounding of kinematics, no direction */
+#define REVERSAL 1e-5    /* units: ways back below are the last cycles of a stop, no reversal */
 
 /* Entry 0 and the last one are sentinels at -DBL_MAX and DBL_MAX. */
 void comp_init(emcmot_joint_t *joint)
@@ -27,7 +28,8 @@ void comp_init(emcmot_joint_t *joint)
     c->entries = 0;
     c->entry = NULL;
     c->swing = c->slope = 0.0;
-    c->shared = 0;
+    c->shared = c->direction = 0;
+    c->back = 0.0;
     c->array[0] = low;
     c->array[1] = high;
 }
@@ -113,17 +115,40 @@ static int interval_of(const emcmot_comp_t *c, double pos)
     return lo;
 }
 
-static void wanted_correction(emcmot_joint_t *jt)
+static int direction_of(emcmot_joint_t *jt, double T)
+{
+    emcmot_comp_t *c = &jt->comp;
+    double way = jt->vel_cmd * T;
+    if (c->direction == 0)
+        c->direction = way > 0.0 ? 1 : -1;
+    c->back = fmax(0.0, c->back - c->direction * way);
+    if (c->back > REVERSAL) {
+        c->direction = -c->direction;
+        c->back = 0.0;
+    }
+    return c->direction;
+}
+
+static void wanted_correction(emcmot_joint_t *jt, double T)
 {
     if (fabs(jt->vel_cmd) < STILL)
         return;
+    int direction = direction_of(jt, T);
     if (jt->comp.entries > 0) {
         const emcmot_comp_entry_t *e = &jt->comp.array[interval_of(&jt->comp, jt->pos_cmd)];
         double d = e->nominal == -DBL_MAX ? 0.0 : jt->pos_cmd - e->nominal;
-        jt->backlash_corr = jt->vel_cmd > 0.0 ? e->fwd_trim + e->fwd_slope * d : e->rev_trim + e->rev_slope * d;
+        jt->backlash_corr = direction > 0 ? e->fwd_trim + e->fwd_slope * d : e->rev_trim + e->rev_slope * d;
     } else {
-        jt->backlash_corr = copysign(0.5 * jt->backlash, jt->vel_cmd);
+        jt->backlash_corr = 0.5 * direction * jt->backlash;
     }
+}
+
+/* While no motor follows, nothing is corrected: the position that is shown would run away from the slide. */
+static void rest(emcmot_joint_t *jt)
+{
+    simple_tp_adopt(&jt->comp.tp, jt->backlash_filt, 0.0, 0.0);
+    jt->backlash_corr = jt->backlash_filt;
+    jt->backlash_vel = 0.0;
 }
 
 /* One cycle towards the wanted value; a hold of the feed holds it too. */
@@ -148,7 +173,11 @@ void phase_compensation(struct motion *m)
         if (!is_active(jt))
             continue;
         share_limits(m, jt);
-        wanted_correction(jt);
+        if (!is_enabled(m)) {
+            rest(jt);
+            continue;
+        }
+        wanted_correction(jt, m->servo_period);
         if (jt->comp.shared)
             approach(jt, m->status->net_feed_scale, m->servo_period);
     }

@@ -230,6 +230,8 @@ typedef struct {
     double swing, slope; /* largest change at once, largest slope of the trims */
     int shared;          /* 1: the joint's limits are shared between its motion and compensation */
     simple_tp_t tp;      /* towards the wanted value */
+    int direction;       /* of motion as far as it matters: -1, 1; 0 none yet */
+    double back;         /* way against it since */
 } emcmot_comp_t;
 
 /* Internal state of a joint; [servo] writes and reads, home modules too (homing.h). */
