@@ -14,6 +14,7 @@ $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
 $(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 
 # Programs in C++.
+$(eval $(call program,hy_vfd,src/hal/user_comps/vfd/hy_vfd.cc src/hal/user_comps/vfd/hycomm.cc,linuxcnchal))
 ifeq ($(HAVE_LIBMODBUS),yes)
 $(eval $(call program,mb2hal,src/hal/user_comps/mb2hal/mb2hal.cc src/hal/user_comps/mb2hal/config.cc,linuxcnchal linuxcncini $(LIBMODBUS_LIBS) -lpthread,$(LIBMODBUS_CFLAGS) -Isrc/emc/ini))
 $(eval $(call program,gs2_vfd,src/hal/user_comps/vfd/gs2_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS)))

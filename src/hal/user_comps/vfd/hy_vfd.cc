@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// hy_vfd.cc - hy_vfd: a Huanyang drive on a serial line as HAL pins. Source: Modbus sheet, section 3.
+#include <getopt.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include "choices.hh"
+#include "hal.h"
+#include "hycomm.hh"
+
+namespace hy {
+
+namespace {
+
+constexpr int RUN_FORWARD = 0x01, RUN_REVERSE = 0x11, STOP = 0x08;
+constexpr int MAX_FREQUENCY = 5, BASE_FREQUENCY = 4, LOWEST_FREQUENCY = 11, RATED_VOLTAGE = 141, RATED_CURRENT = 142, POLES = 143, RATED_SPEED = 144;
+constexpr int LAST_PARAMETER = 182;
+constexpr double RATED_AT_HZ = 50, CYCLE_S = 0.1, LOOK_S = 0.01;
+constexpr int OK_AFTER = 10, STOP_TRIES = 5;
+constexpr size_t MAX_NAME = 27, MAX_REGISTERS = 10;
+constexpr int STATUSES = 8;
+
+std::atomic<bool> ending{false};
+
+void on_signal(int) { ending = true; }
+
+void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+struct Options {
+    std::string name = "hy_vfd";
+    Line line;
+    double max_hz = 0, min_hz = 0, base_hz = 0, volts = 0, amperes = 0, rpm = 0; ///< 0: as the drive has it
+    int poles = 0;
+    std::vector<std::pair<int, int>> registers;
+    bool dump = false;
+};
+
+struct Pins {
+    hal_bit_t *enable, *forward, *reverse, *on;
+    hal_float_t *status[STATUSES]; ///< SetF OutF OutA Rott DCV ACV Cont Tmp
+    hal_float_t *control, *answer;
+    hal_bit_t *bits[8];
+    hal_float_t *speed_command, *frequency_command, *max_freq, *base_freq, *lower_limit, *volts, *amperes, *rated_rev, *fb, *fb_rps, *tolerance;
+    hal_u32_t *poles, *retval;
+    hal_bit_t *ok, *at_speed;
+    hal_s32_t *error_count;
+};
+
+enum { SET_F = 0, OUT_F = 1 };
+constexpr const char *STATUS_NAMES[STATUSES] = {"SetF", "OutF", "OutA", "Rott", "DCV", "ACV", "Cont", "Tmp"};
+constexpr double STATUS_SCALE[STATUSES] = {100, 100, 10, 1, 1, 1, 1, 1};
+constexpr const char *BIT_NAMES[8] = {"CNST-run", "CNST-jog", "CNST-command-rf", "CNST-running", "CNST-jogging", "CNST-running-rf", "CNST-bracking", "CNST-track-start"};
+constexpr int BIT_MASKS[8] = {0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80};
+
+class Drive {
+public:
+    explicit Drive(const Options &options) : options_(options), drive_(options.name, options.line) {}
+
+    int run() {
+        if (!drive_.open() || !make_pins()) return -1;
+        hal_ready(component_);
+        while (!ending) {
+            if (!*pins_->enable) {
+                if (!stopped_) stopped_ = write_control(STOP); // it did not hear of it: again
+                sleep_s(LOOK_S);
+                continue;
+            }
+            if (!set_up()) {
+                if (!told_) fprintf(stderr, "%s: error reading setup from VFD, retrying\n", options_.name.c_str());
+                told_ = true;
+                sleep_s(CYCLE_S);
+                continue;
+            }
+            told_ = false;
+            while (!ending && *pins_->enable) {
+                cycle();
+                sleep_s(CYCLE_S);
+            }
+            rest();
+        }
+        hal_exit(component_);
+        return 0;
+    }
+
+private:
+    /// Counts what went well and what did not.
+    std::optional<int> told(std::optional<int> answer) {
+        Pins &p = *pins_;
+        if (answer) {
+            good_ = std::min(good_ + 1, OK_AFTER + 1);
+            *p.retval = 0;
+        } else {
+            good_ = 0;
+            *p.error_count = *p.error_count + 1;
+            *p.retval = 1;
+        }
+        *p.ok = good_ > OK_AFTER;
+        return answer;
+    }
+
+    /// Gives the drive what the options say, then asks what it has.
+    bool setting(int number, double given, double scale, hal_float_t *pin) {
+        if (given > 0 && !told(drive_.set_parameter(number, static_cast<int>(std::lround(given * scale))))) return false;
+        auto value = told(drive_.parameter(number));
+        if (value) *pin = *value / scale;
+        return value.has_value();
+    }
+
+    bool set_up() {
+        Pins &p = *pins_;
+        const Options &o = options_;
+        for (auto &[number, value] : o.registers)
+            if (!told(drive_.set_parameter(number, value))) return false;
+        if (!setting(MAX_FREQUENCY, o.max_hz, 100, p.max_freq) || !setting(BASE_FREQUENCY, o.base_hz, 100, p.base_freq) ||
+            !setting(LOWEST_FREQUENCY, o.min_hz, 100, p.lower_limit) || !setting(RATED_VOLTAGE, o.volts, 10, p.volts) ||
+            !setting(RATED_CURRENT, o.amperes, 10, p.amperes)) return false;
+        if (o.poles > 0 && !told(drive_.set_parameter(POLES, o.poles))) return false;
+        auto poles = told(drive_.parameter(POLES));
+        if (!poles) return false;
+        *p.poles = static_cast<uint32_t>(*poles);
+        double max_hz = *p.max_freq;
+        if (o.rpm > 0 && max_hz > 0 && !told(drive_.set_parameter(RATED_SPEED, static_cast<int>(std::lround(o.rpm / max_hz * RATED_AT_HZ))))) return false;
+        auto speed = told(drive_.parameter(RATED_SPEED));
+        if (!speed) return false;
+        *p.rated_rev = *speed / RATED_AT_HZ * max_hz;
+        if (o.dump) dump();
+        frequency_ = -1;
+        return true;
+    }
+
+    void dump() {
+        for (int n = 0; n <= LAST_PARAMETER && !ending; n++)
+            if (auto value = drive_.parameter(n)) printf("PD%03d=%d\n", n, *value), fflush(stdout);
+    }
+
+    void cycle() {
+        Pins &p = *pins_;
+        bool forward = *p.on && *p.forward && !*p.reverse, reverse = *p.on && *p.reverse && !*p.forward;
+        write_frequency(forward, reverse);
+        write_control(forward ? RUN_FORWARD : reverse ? RUN_REVERSE : STOP);
+        for (int n = 0; n < STATUSES; n++)
+            if (auto value = told(drive_.status(n))) *p.status[n] = *value / STATUS_SCALE[n];
+        speed();
+    }
+
+    void write_frequency(bool forward, bool reverse) {
+        Pins &p = *pins_;
+        double rated = *p.rated_rev, command = *p.speed_command;
+        if (!std::isfinite(command)) command = 0;
+        double around = forward ? 1 : reverse ? -1 : 0; // makes up for what is cut off
+        double hz = rated > 0 ? std::fabs((command + around) * *p.max_freq / rated) : 0;
+        double most = *p.max_freq, least = *p.lower_limit;
+        int value = static_cast<int>(std::min(std::max(std::min(hz, most), least), 655.35) * 100);
+        *p.frequency_command = value;
+        if (value != frequency_ && told(drive_.frequency(value))) frequency_ = value;
+    }
+
+    bool write_control(int control) {
+        Pins &p = *pins_;
+        *p.control = control;
+        auto answer = told(drive_.control(control));
+        if (!answer) return false;
+        *p.answer = *answer;
+        for (int n = 0; n < 8; n++) *p.bits[n] = (*answer & BIT_MASKS[n]) != 0;
+        return true;
+    }
+
+    void speed() {
+        Pins &p = *pins_;
+        double command = std::fabs(*p.speed_command), max_hz = *p.max_freq;
+        bool turns = *p.on && command > 0 && *p.status[SET_F] > 0 && max_hz > 0;
+        double rpm = turns ? *p.status[OUT_F] / max_hz * *p.rated_rev : 0;
+        *p.fb = rpm;
+        *p.fb_rps = rpm / 60;
+        *p.at_speed = turns && *p.ok && std::fabs(1 - rpm / command) < *p.tolerance;
+    }
+
+    /// Disabled, or at the end: the drive stops.
+    void rest() {
+        stopped_ = false;
+        for (int tries = 0; tries < STOP_TRIES && !stopped_; tries++) stopped_ = write_control(STOP);
+        *pins_->at_speed = false;
+        *pins_->fb = 0;
+        *pins_->fb_rps = 0;
+    }
+
+    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F make) { return make(dir, &at, component_, "%s.%s", options_.name.c_str(), name) == 0; }
+
+    bool make_pins() {
+        component_ = hal_init(options_.name.c_str());
+        if (component_ < 0) return false;
+        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
+        if (!pins_ || !make_all()) {
+            hal_exit(component_);
+            return false;
+        }
+        *pins_->tolerance = 0.02;
+        return true;
+    }
+
+    bool make_all() {
+        Pins &p = *pins_;
+        for (int n = 0; n < STATUSES; n++)
+            if (!pin(p.status[n], HAL_OUT, STATUS_NAMES[n], hal_pin_float_newf) || !pin(p.bits[n], HAL_OUT, BIT_NAMES[n], hal_pin_bit_newf)) return false;
+        struct { hal_float_t **at; hal_pin_dir_t dir; const char *name; } floats[] = {
+            {&p.control, HAL_OUT, "CNTR"}, {&p.answer, HAL_OUT, "CNST"}, {&p.speed_command, HAL_IN, "speed-command"}, {&p.frequency_command, HAL_OUT, "frequency-command"},
+            {&p.max_freq, HAL_OUT, "max-freq"}, {&p.base_freq, HAL_OUT, "base-freq"}, {&p.lower_limit, HAL_OUT, "freq-lower-limit"},
+            {&p.volts, HAL_OUT, "rated-motor-voltage"}, {&p.amperes, HAL_OUT, "rated-motor-current"}, {&p.rated_rev, HAL_OUT, "rated-motor-rev"},
+            {&p.fb, HAL_OUT, "spindle-speed-fb"}, {&p.fb_rps, HAL_OUT, "spindle-speed-fb-rps"}, {&p.tolerance, HAL_IN, "spindle-at-speed-tolerance"}};
+        for (auto &f : floats)
+            if (!pin(*f.at, f.dir, f.name, hal_pin_float_newf)) return false;
+        struct { hal_bit_t **at; hal_pin_dir_t dir; const char *name; } bits[] = {
+            {&p.enable, HAL_IN, "enable"}, {&p.forward, HAL_IN, "spindle-forward"}, {&p.reverse, HAL_IN, "spindle-reverse"}, {&p.on, HAL_IN, "spindle-on"},
+            {&p.ok, HAL_OUT, "hycomm-ok"}, {&p.at_speed, HAL_OUT, "spindle-at-speed"}};
+        for (auto &b : bits)
+            if (!pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
+        return pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) && pin(p.retval, HAL_OUT, "retval", hal_pin_u32_newf) && pin(p.error_count, HAL_OUT, "error-count", hal_pin_s32_newf);
+    }
+
+    const Options &options_;
+    Hycomm drive_;
+    Pins *pins_ = nullptr;
+    int component_ = -1, good_ = 0, frequency_ = -1;
+    bool told_ = false, stopped_ = true;
+};
+
+constexpr int REGISTER = 1000, DUMP = 1001;
+constexpr option LONG[] = {
+    {"bits", 1, nullptr, 'b'}, {"device", 1, nullptr, 'd'}, {"debug", 0, nullptr, 'g'}, {"name", 1, nullptr, 'n'}, {"parity", 1, nullptr, 'p'}, {"rate", 1, nullptr, 'r'},
+    {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"max-frequency", 1, nullptr, 'F'}, {"min-frequency", 1, nullptr, 'f'}, {"base-frequency", 1, nullptr, 'B'},
+    {"motor-voltage", 1, nullptr, 'V'}, {"motor-current", 1, nullptr, 'I'}, {"motor-speed", 1, nullptr, 'S'}, {"motor-poles", 1, nullptr, 'P'},
+    {"register", 1, nullptr, REGISTER}, {"regdump", 0, nullptr, DUMP}, {"help", 0, nullptr, 'h'}, {nullptr, 0, nullptr, 0}};
+
+void usage() {
+    printf("hy_vfd [-b BITS] [-d DEVICE] [-g] [-n NAME] [-p even|odd|none] [-r RATE] [-s STOPBITS] [-t TARGET]\n"
+           "       [-F MAX_HZ] [-f MIN_HZ] [-B BASE_HZ] [-V MOTOR_VOLTS] [-I MOTOR_AMPERES] [-S RPM_AT_MAX_HZ] [-P POLES]\n"
+           "       [--register PDnnn=VALUE] [--regdump]\n"
+           "Defaults: 8 bits, /dev/ttyS0, hy_vfd, even, 19200, 1, 1; what is not given stays as the drive has it.\n");
+}
+
+bool number(const char *what, const char *text, double low, double high, double &value) {
+    char *end = nullptr;
+    value = strtod(text, &end);
+    if (end != text && *end == '\0' && value >= low && value <= high) return true;
+    fprintf(stderr, "hy_vfd: %s %s: must be a number from %g to %g\n", what, text, low, high);
+    return false;
+}
+
+bool a_register(const char *text, Options &o) {
+    int number = 0, value = 0;
+    char rest;
+    if (sscanf(text, "PD%3d=%d%c", &number, &value, &rest) != 2 || number < 0 || number > LAST_PARAMETER || value < 0 || value > 65535) {
+        fprintf(stderr, "hy_vfd: register %s: must be like PD001=2\n", text);
+        return false;
+    }
+    if (o.registers.size() == MAX_REGISTERS) {
+        fprintf(stderr, "hy_vfd: more than %zu registers\n", MAX_REGISTERS);
+        return false;
+    }
+    o.registers.emplace_back(number, value);
+    return true;
+}
+
+/// False with the status to end with.
+bool parse(int argc, char **argv, Options &o, int &status) {
+    status = -1;
+    for (int c; (c = getopt_long(argc, argv, "b:d:gn:p:r:s:t:F:f:B:V:I:S:P:h", LONG, nullptr)) != -1;) {
+        const char *chosen = nullptr;
+        double value = 0;
+        switch (c) {
+        case 'b': if (!(chosen = one_of("hy_vfd", "bits", optarg, {"5", "6", "7", "8"}))) return false; o.line.bits = atoi(chosen); break;
+        case 'd': o.line.device = optarg; break;
+        case 'g': o.line.debug = true; break;
+        case 'n':
+            o.name = optarg;
+            if (o.name.empty() || o.name.size() > MAX_NAME) {
+                fprintf(stderr, "hy_vfd: name %s: must have 1 to %zu characters\n", optarg, MAX_NAME);
+                return false;
+            }
+            break;
+        case 'p': if (!(chosen = one_of("hy_vfd", "parity", optarg, {"even", "odd", "none"}))) return false; o.line.parity = static_cast<char>(*chosen - 'a' + 'A'); break;
+        case 'r': if (!(chosen = one_of("hy_vfd", "rate", optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}))) return false; o.line.rate = atoi(chosen); break;
+        case 's': if (!(chosen = one_of("hy_vfd", "stopbits", optarg, {"1", "2"}))) return false; o.line.stop = atoi(chosen); break;
+        case 't': if (!number("target", optarg, 1, 254, value)) return false; o.line.target = static_cast<int>(value); break;
+        case 'F': if (!number("max-frequency", optarg, 0, 650, o.max_hz)) return false; break;
+        case 'f': if (!number("min-frequency", optarg, 0, 650, o.min_hz)) return false; break;
+        case 'B': if (!number("base-frequency", optarg, 0, 400, o.base_hz)) return false; break;
+        case 'V': if (!number("motor-voltage", optarg, 0, 6500, o.volts)) return false; break;
+        case 'I': if (!number("motor-current", optarg, 0, 6500, o.amperes)) return false; break;
+        case 'S': if (!number("motor-speed", optarg, 0, 1e6, o.rpm)) return false; break;
+        case 'P': if (!number("motor-poles", optarg, 0, 255, value)) return false; o.poles = static_cast<int>(value); break;
+        case REGISTER: if (!a_register(optarg, o)) return false; break;
+        case DUMP: o.dump = true; break;
+        case 'h': usage(); status = 0; return false;
+        default: return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+int run_program(int argc, char **argv) {
+    Options options;
+    int status;
+    if (!parse(argc, argv, options, status)) return status;
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    return Drive(options).run();
+}
+
+} // namespace hy
+
+int main(int argc, char **argv) { return hy::run_program(argc, argv); }
