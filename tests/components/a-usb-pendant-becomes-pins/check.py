@@ -56,6 +56,13 @@ def ready():
     return "xhc-hb04" in halcmd("list", "comp").split()
 
 
+def loops():
+    """The program has been round at least once since the call: it sends a display of 48 bytes each time."""
+    seen = (folder / "out").stat().st_size
+    while (folder / "out").stat().st_size < seen + 3 * 48:
+        time.sleep(0.005)
+
+
 def image():
     """What the display shows last."""
     blocks = (folder / "out").read_bytes()
@@ -99,11 +106,11 @@ for value in ("1", "5", "10", "20", "1"):
     setp("stepsize-up", 1)
     until(lambda: get("stepsize") != value, "up")
     setp("stepsize-up", 0)
-    time.sleep(0.1)
+    loops()
 setp("stepsize-down", 1)
 until(lambda: get("stepsize") == "1", "down")
 setp("stepsize-up", 1)
-time.sleep(0.2)
+loops()
 print("both:", get("stepsize"))
 setp("stepsize-down", 0)
 setp("stepsize-up", 0)
@@ -118,7 +125,7 @@ for name, value in (("x.pos-absolute", 12.34567), ("x.pos-relative", -0.00004), 
                     ("feed-override", 1.2), ("spindle-override", 0.5), ("feed-value", 10), ("spindle-rps", -20), ("inch-icon", 1)):
     setp(name, value)
 until(lambda: image()[36] == 0x80 and coordinates()[3] > 12, "shown")
-time.sleep(0.2)
+loops()
 print(coordinates(), struct.unpack("<4h", image()[27:35]), image()[:3].hex(), image()[35])
 report(0, 0x18)
 until(lambda: coordinates()[0] == 90.25, "A in place of X")

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// percent_vfd.cc - hy_gt_vfd (Huanyang GT) and svd-ps_vfd (Soyan SVD-PS): drives that take their speed in
+// hundredths of a percent (libmodbus). The name of the program chooses. Source: Modbus sheet, section 4.
+#include <errno.h>
+#include <getopt.h>
+#include <modbus.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "choices.hh"
+#include "hal.h"
+
+namespace percent {
+
+namespace {
+
+constexpr int FORWARD = 1, STOP = 5, FULL = 10000, TRIES = 6, NO_REGISTER = -1;
+constexpr size_t MAX_VALUES = 12;
+
+struct Value { const char *pin; int address; double scale; };
+
+/// One kind of drive.
+struct Kind {
+    const char *name;
+    int rate, stop, run, frequency;
+    int response_us;
+    int gap_bytes;  ///< silence before each transaction, in bytes of 10 bits
+    int fault;      ///< register of pin fault-info, or NO_REGISTER
+    Value values[MAX_VALUES];
+};
+
+constexpr Kind KINDS[] = {
+    {"hy_gt_vfd", 38400, 1, 0x1000, 0x2000, 16000, 8, 0x5000,
+     {{"freq-fb", 0x3000, 0.01}, {"dc-bus-voltage", 0x3002, 0.1}, {"output-voltage", 0x3003, 1}, {"output-current", 0x3004, 1}, {"speed-fb", 0x3005, 1}, {"output-power", 0x3006, 1},
+      {"input-terminal", 0x300a, 1}, {"output-terminal", 0x300b, 1}, {"AI1", 0x300c, 1}, {"AI2", 0x300d, 1}, {"HDI-frequency", 0x3010, 1}, {"external-counter", 0x3014, 1}}},
+    {"svd-ps_vfd", 9600, 2, 0x2000, 0x1000, 30000, 5, NO_REGISTER,
+     {{"freq-fb", 0x1001, 0.01}, {"dc-bus-voltage", 0x1002, 0.1}, {"output-voltage", 0x1003, 1}, {"output-current", 0x1004, 1}, {"speed-fb", 0x1005, 1}, {"output-power", 0x1006, 1},
+      {"input-terminal", 0x1009, 1}, {"AI1", 0x100a, 0.001}, {"AI2", 0x100b, 0.001}, {}, {}, {}}}};
+
+std::atomic<bool> ending{false};
+
+void on_signal(int) { ending = true; }
+
+struct Options {
+    std::string device = "/dev/ttyS0";
+    int rate = 0, bits = 8, stop = 0, target = 1;
+    char parity = 'N';
+    double max_speed = 0, max_hz = 0, min_hz = 0;
+    bool verbose = false;
+};
+
+struct Pins {
+    hal_float_t *values[MAX_VALUES], *fault, *period, *speed_cmd, *freq_cmd;
+    hal_u32_t *fault_code, *errors;
+    hal_bit_t *at_speed, *on;
+};
+
+class Drive {
+public:
+    Drive(const Kind &kind, const Options &options) : kind_(kind), options_(options) {}
+    ~Drive() {
+        if (link_) modbus_close(link_);
+        modbus_free(link_);
+    }
+
+    int run() {
+        if (!open() || !make_pins()) return 1;
+        hal_ready(component_);
+        while (!ending) {
+            double period = *pins_->period;
+            std::this_thread::sleep_for(std::chrono::duration<double>(period > 0.001 ? std::min(period, 2.0) : 0.001));
+            if (!ending) step();
+        }
+        write(kind_.run, STOP);
+        hal_exit(component_);
+        return 0;
+    }
+
+private:
+    bool open() {
+        link_ = modbus_new_rtu(options_.device.c_str(), options_.rate, options_.parity, options_.bits, options_.stop);
+        if (link_ && modbus_set_slave(link_, options_.target) == 0 && modbus_connect(link_) == 0) {
+            modbus_set_debug(link_, options_.verbose);
+            modbus_set_response_timeout(link_, 0, static_cast<uint32_t>(kind_.response_us));
+            return true;
+        }
+        fprintf(stderr, "%s: ERROR: %s: %s\n", kind_.name, options_.device.c_str(), modbus_strerror(errno));
+        return false;
+    }
+
+    /// Up to six tries with the silence that the drive needs before each.
+    template <class F> bool transact(const char *what, int address, F once) {
+        for (int n = 0; n < TRIES; n++) {
+            std::this_thread::sleep_for(std::chrono::microseconds(kind_.gap_bytes * 10 * 1000000LL / options_.rate));
+            if (once()) {
+                told_ = false;
+                return true;
+            }
+            *pins_->errors = *pins_->errors + 1;
+            if (!told_) fprintf(stderr, "%s: error %s register 0x%04x: %s\n", kind_.name, what, static_cast<unsigned>(address), modbus_strerror(errno));
+            told_ = true; // once until it works again
+            std::this_thread::sleep_for(std::chrono::microseconds(kind_.response_us)); // a late answer is not the next one's
+            modbus_flush(link_);
+        }
+        return false;
+    }
+
+    bool read(int address, uint16_t &value) {
+        return transact("reading", address, [&] { return modbus_read_registers(link_, address, 1, &value) == 1; });
+    }
+
+    bool write(int address, int value) {
+        return transact("writing", address, [&] { return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1; });
+    }
+
+    void step() {
+        Pins &p = *pins_;
+        if (*p.on) start();
+        else stop();
+        for (size_t n = 0; n < MAX_VALUES && kind_.values[n].pin; n++) {
+            uint16_t value;
+            if (!read(kind_.values[n].address, value)) {
+                *p.at_speed = false;
+                return; // the drive does not answer: the commands come first again
+            }
+            *p.values[n] = value * kind_.values[n].scale;
+        }
+        uint16_t fault;
+        if (kind_.fault != NO_REGISTER && read(kind_.fault, fault)) {
+            *p.fault = fault;
+            *p.fault_code = fault;
+        }
+        double command = *p.speed_cmd, speed = *p.values[4];
+        *p.at_speed = *p.on && command > 0 && std::fabs(command - speed) / command < 0.02;
+    }
+
+    void start() {
+        Pins &p = *pins_;
+        double part = *p.speed_cmd / options_.max_speed;
+        part = std::isfinite(part) ? std::min(std::max(part, 0.0), 1.0) : 0.0;
+        *p.freq_cmd = part * options_.max_hz;
+        if (write(kind_.frequency, static_cast<int>(std::lround(part * FULL)))) write(kind_.run, FORWARD);
+    }
+
+    void stop() {
+        *pins_->freq_cmd = 0;
+        write(kind_.run, STOP);
+    }
+
+    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F make) { return make(dir, &at, component_, "%s.%s", kind_.name, name) == 0; }
+
+    bool make_pins() {
+        component_ = hal_init(kind_.name);
+        if (component_ < 0) return false;
+        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
+        if (!pins_ || !make_all()) {
+            hal_exit(component_);
+            return false;
+        }
+        *pins_->period = 0.1;
+        return true;
+    }
+
+    bool make_all() {
+        Pins &p = *pins_;
+        for (size_t n = 0; n < MAX_VALUES && kind_.values[n].pin; n++)
+            if (!pin(p.values[n], HAL_OUT, kind_.values[n].pin, hal_pin_float_newf)) return false;
+        if (kind_.fault != NO_REGISTER && (!pin(p.fault, HAL_OUT, "fault-info", hal_pin_float_newf) || !pin(p.fault_code, HAL_OUT, "fault-info-code", hal_pin_u32_newf))) return false;
+        return pin(p.period, HAL_IN, "period-seconds", hal_pin_float_newf) && pin(p.speed_cmd, HAL_IN, "speed-cmd", hal_pin_float_newf) &&
+               pin(p.freq_cmd, HAL_OUT, "freq-cmd", hal_pin_float_newf) && pin(p.at_speed, HAL_OUT, "at-speed", hal_pin_bit_newf) &&
+               pin(p.on, HAL_IN, "spindle-on", hal_pin_bit_newf) && pin(p.errors, HAL_OUT, "modbus-errors", hal_pin_u32_newf);
+    }
+
+    const Kind &kind_;
+    const Options &options_;
+    modbus_t *link_ = nullptr;
+    int component_ = -1;
+    Pins *pins_ = nullptr;
+    bool told_ = false;
+};
+
+constexpr option LONG[] = {
+    {"motor-max-speed", 1, nullptr, 'S'}, {"max-frequency", 1, nullptr, 'F'}, {"min-frequency", 1, nullptr, 'f'}, {"device", 1, nullptr, 'd'}, {"rate", 1, nullptr, 'r'}, {"bits", 1, nullptr, 'b'},
+    {"parity", 1, nullptr, 'p'}, {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"verbose", 0, nullptr, 'v'}, {"help", 0, nullptr, 'h'}, {nullptr, 0, nullptr, 0}};
+
+void usage(const Kind &kind) {
+    printf("%s -S MOTOR_MAX_RPM -F MAX_HZ -f MIN_HZ [-d DEVICE] [-r RATE] [-b BITS] [-p even|odd|none] [-s STOPBITS] [-t TARGET] [-v]\n"
+           "Defaults: /dev/ttyS0, %d, 8 bits, none, %d, 1.\n", kind.name, kind.rate, kind.stop);
+}
+
+bool number(const Kind &kind, const char *what, const char *text, double low, double high, double &value) {
+    char *end = nullptr;
+    value = strtod(text, &end);
+    if (end != text && *end == '\0' && value >= low && value <= high) return true;
+    fprintf(stderr, "%s: %s %s: must be a number from %g to %g\n", kind.name, what, text, low, high);
+    return false;
+}
+
+/// False with the status to end with.
+bool parse(const Kind &kind, int argc, char **argv, Options &o, int &status) {
+    status = 1;
+    o.rate = kind.rate;
+    o.stop = kind.stop;
+    for (int c; (c = getopt_long(argc, argv, "S:F:f:d:r:b:p:s:t:vh", LONG, nullptr)) != -1;) {
+        const char *chosen = nullptr;
+        double value = 0;
+        switch (c) {
+        case 'S': if (!number(kind, "motor-max-speed", optarg, 1, 1e6, o.max_speed)) return false; break;
+        case 'F': if (!number(kind, "max-frequency", optarg, 0.01, 10000, o.max_hz)) return false; break;
+        case 'f': if (!number(kind, "min-frequency", optarg, 0.01, 10000, o.min_hz)) return false; break;
+        case 'd': o.device = optarg; break;
+        case 'r': if (!(chosen = one_of(kind.name, "rate", optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}))) return false; o.rate = atoi(chosen); break;
+        case 'b': if (!(chosen = one_of(kind.name, "bits", optarg, {"5", "6", "7", "8"}))) return false; o.bits = atoi(chosen); break;
+        case 'p': if (!(chosen = one_of(kind.name, "parity", optarg, {"even", "odd", "none"}))) return false; o.parity = static_cast<char>(*chosen - 'a' + 'A'); break;
+        case 's': if (!(chosen = one_of(kind.name, "stopbits", optarg, {"1", "2"}))) return false; o.stop = atoi(chosen); break;
+        case 't': if (!number(kind, "target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
+        case 'v': o.verbose = true; break;
+        case 'h': usage(kind); status = 0; return false;
+        default: return false;
+        }
+    }
+    if (o.max_speed > 0 && o.max_hz > 0 && o.min_hz > 0 && o.min_hz <= o.max_hz) return true;
+    fprintf(stderr, "%s: needs --motor-max-speed, --max-frequency and --min-frequency, the last not above the second\n", kind.name);
+    return false;
+}
+
+} // namespace
+
+int run_program(int argc, char **argv) {
+    const Kind &kind = std::string(program_invocation_short_name) == KINDS[1].name ? KINDS[1] : KINDS[0];
+    Options options;
+    int status;
+    if (!parse(kind, argc, argv, options, status)) return status;
+    struct sigaction action = {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    return Drive(kind, options).run();
+}
+
+} // namespace percent
+
+int main(int argc, char **argv) { return percent::run_program(argc, argv); }
