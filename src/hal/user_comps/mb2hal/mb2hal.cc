@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "config.hh"
+#include "hardware_time.hh"
 
 namespace mb2hal {
 
@@ -251,6 +252,7 @@ int run_program(int argc, char **argv) {
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     signal(SIGPIPE, SIG_IGN);
+    live_in_real_time(config.module.c_str());
     int component = hal_init(config.module.c_str());
     if (component < 0) {
         say(config, 1, 1, "main", "hal_init failed: " + std::string(strerror(-component)));

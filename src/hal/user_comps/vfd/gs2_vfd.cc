@@ -19,6 +19,7 @@
 
 #include "choices.hh"
 #include "hal.h"
+#include "hardware_time.hh"
 
 namespace gs2 {
 
@@ -296,6 +297,7 @@ int run_program(int argc, char **argv) {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    live_in_real_time(options.name.c_str());
     return Drive(options).run();
 }
 

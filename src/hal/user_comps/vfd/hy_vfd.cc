@@ -15,6 +15,7 @@
 
 #include "choices.hh"
 #include "hal.h"
+#include "hardware_time.hh"
 #include "hycomm.hh"
 
 namespace hy {
@@ -317,6 +318,7 @@ int run_program(int argc, char **argv) {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    live_in_real_time(options.name.c_str());
     return Drive(options).run();
 }
 

@@ -18,6 +18,7 @@
 
 #include "choices.hh"
 #include "hal.h"
+#include "hardware_time.hh"
 
 namespace percent {
 
@@ -244,6 +245,7 @@ int run_program(int argc, char **argv) {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    live_in_real_time(kind.name);
     return Drive(kind, options).run();
 }
 

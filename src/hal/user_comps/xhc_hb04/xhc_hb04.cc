@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "hal.h"
+#include "hardware_time.hh"
 #include "pendant.hh"
 
 namespace xhc {
@@ -399,6 +400,7 @@ int run_program(int argc, char **argv) {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    live_in_real_time("xhc-hb04");
     return Program(options, std::move(buttons)).run();
 }
 
