@@ -4,9 +4,13 @@
 import hal
 import os
 import subprocess
+import sys
 
 from kerf.sequence import *
 from mill import *
+
+sys.path.insert(0, str(Path(os.environ["EMC2_HOME"]) / "tests/nml/lib"))
+import wire
 
 me = hal.component("buttons")
 me.ready()
@@ -100,3 +104,10 @@ with Sequence() as run:
     run.mode(MODE_MDI)
     run.mdi("G0 X1 Y1")
 print("a new sequence works:", xyz(3)[:2])
+# A program of another computer takes control, and loses it with its connection.
+far = wire.Client()
+name = b"far away"
+print("over TCP:", far.write(wire.COMMAND, wire.struct.pack(">iqiI", 532, 64, 0, len(name)) + name)[1] == 3,
+      until(lambda s: s.control_name == "far away", 2), mdi("G0 X2") == RCS_ERROR, messages())
+far.socket.close()
+print("gone with its connection:", until(lambda s: s.control_pid == 0, 600), mdi("G0 X2"), xyz(3)[:2])
