@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Documents over HTTP, lines over SHDR and messages over MQTT, while the machine works and after it went off.
+import os
 import re
 import socket
+import subprocess
 import sys
 import urllib.error
 import urllib.request
@@ -173,3 +175,14 @@ sleep(5)
 print("twice a second:", 9 <= int(getp("mtconnect-agent.heartbeat")) - beats <= 11)
 agent.terminate()
 print("ends with", away(lambda: agent.wait(20)))
+
+print("== a port that is taken, and the INI file of the environment")
+clock.wait_until(lambda: "mtconnect-agent" not in halcmd("list", "comp").split(), 10)
+taken = socket.create_server(("127.0.0.1", http))
+agent = clock.spawn(["mtconnect-agent", "--port", str(http)], "mtconnect-agent", 500, env=dict(os.environ, INI_FILE_NAME="agent.ini"), stderr=open("told", "w"))
+clock.wait_until(lambda: "mtconnect-agent" in halcmd("list", "comp").split() and getp("mtconnect-agent.heartbeat") not in ("", "0"), 10)
+print("works on:", getp("mtconnect-agent.active"), Path("told").read_text().replace(str(http), "PORT").strip())
+second = away(lambda: subprocess.run(["mtconnect-agent", "agent.ini", "--port", str(http)], stderr=subprocess.PIPE, text=True, timeout=30, env={k: v for k, v in os.environ.items() if not k.startswith("KERF_CLOCK")}))
+print("beside it:", second.returncode, second.stderr.replace(str(http), "PORT").replace(str(shdr), "SHDR").strip())
+agent.terminate()
+away(lambda: agent.wait(20))

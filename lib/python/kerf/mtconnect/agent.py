@@ -39,13 +39,22 @@ class Agent:
         self.shdr = self.mqtt = None
 
     def serve(self, port):
-        s = self.settings
+        """Starts the servers; texts of those that cannot."""
+        s, problems = self.settings, []
+        port = s.http_port if port is None else port
         if "http" in s.transports:
-            HttpServer(s.http_bind, s.http_port if port is None else port, self)
+            try:
+                HttpServer(s.http_bind, port, self)
+            except (OSError, OverflowError) as error:
+                problems.append(f"HTTP, {s.http_bind}:{port}: {error}; see [MTCONNECT]HTTP_PORT and HTTP_BIND")
         if "shdr" in s.transports:
-            self.shdr = ShdrServer(s.shdr_bind, s.shdr_port, self)
+            try:
+                self.shdr = ShdrServer(s.shdr_bind, s.shdr_port, self)
+            except (OSError, OverflowError) as error:
+                problems.append(f"SHDR, {s.shdr_bind}:{s.shdr_port}: {error}; see [MTCONNECT]SHDR_PORT and SHDR_BIND")
         if "mqtt" in s.transports:
             self.mqtt = MqttSender(self)
+        return problems
 
     def poll(self):
         values = self.agent_values | self.reader.values()
@@ -71,8 +80,11 @@ def hal_component():
     """(module hal, component) or (None, None) where there is no HAL."""
     try:
         import hal
+    except ImportError:
+        return None, None
+    try:
         component = hal.component(NAME)
-    except (ImportError, RuntimeError, OSError):
+    except (hal.error, RuntimeError):  # no HAL, or another agent has the pins
         return None, None
     component.newpin("enable", hal.HAL_BIT, hal.HAL_IN)
     component.newpin("sample-hz", hal.HAL_U32, hal.HAL_IN)
@@ -124,13 +136,14 @@ def main(words):
             component.ready()  # loadusr -W goes on
         return 0
     agent = Agent(settings, ini, hal)
-    try:
-        agent.serve(options.port)
-    except OSError as error:
-        sys.exit(f"{NAME}: cannot listen: {error}; see HTTP_PORT, HTTP_BIND and SHDR_PORT in [MTCONNECT]")
+    problems = agent.serve(options.port)
+    for problem in problems:
+        print(f"{NAME}: {problem}", file=sys.stderr, flush=True)
+    if problems and not component:
+        return 1
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     if component:
-        component.ready()
+        component.ready()  # a machine starts also where a port is taken
     clock.join(NAME, 500)
     try:
         run(agent, component)
