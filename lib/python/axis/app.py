@@ -4,6 +4,7 @@
 import getopt
 import gettext
 import os
+import signal
 import sys
 import threading
 import tkinter as tk
@@ -564,7 +565,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     def close(self):
         self.jogger.guard.over = True
         self.logger.stop()
-        self.logging.join(1.0)
+        for thread in (self.logging, self.jogger.guard):  # one that sleeps at Python's end would end it by abort()
+            if thread.is_alive():
+                thread.join(1.0)
         self.loader.close()
         self.end_children()
         if getattr(self, "comp", None) is not None:
@@ -599,5 +602,6 @@ def main(argv):
     except KeyboardInterrupt:        # the launcher ends the session
         pass
     finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # one is enough: nothing interrupts the end
         app.close()
     return app.exit_status
