@@ -3,7 +3,6 @@
 // mb2hal.cc - mb2hal config=FILE: HAL pins of Modbus devices, over serial lines and TCP (libmodbus).
 // Source: Modbus sheet, section 1. One thread for each link; a pin is touched by one thread.
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cmath>
@@ -13,7 +12,7 @@
 #include <thread>
 
 #include "config.hh"
-#include "hardware_time.hh"
+#include "hardware_program.hh"
 
 namespace mb2hal {
 
@@ -23,8 +22,6 @@ constexpr int MAX_ELEMENTS = 100;
 constexpr double NAP_S = 0.001;
 constexpr double RETRY_S = 0.1; // between attempts to connect
 constexpr double LOOK_S = 0.02; // a long wait looks so often whether the program ends
-
-std::atomic<bool> ending{false};
 
 bool reads_bits(Code c) { return c == Code::read_coils || c == Code::read_inputs; }
 bool reads_registers(Code c) { return c == Code::read_holding || c == Code::read_input_registers; }
@@ -233,8 +230,6 @@ private:
     std::string told_;
 };
 
-void on_signal(int) { ending = true; }
-
 } // namespace
 
 int run_program(int argc, char **argv) {
@@ -247,12 +242,8 @@ int run_program(int argc, char **argv) {
     std::string path = argument.substr(7);
     if (path.size() >= 2 && path.front() == '"' && path.back() == '"') path = path.substr(1, path.size() - 2);
     if (!read_config(path, config)) return -1;
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
     signal(SIGPIPE, SIG_IGN);
-    live_in_real_time(config.module.c_str());
+    begin_hardware_program(config.module.c_str());
     int component = hal_init(config.module.c_str());
     if (component < 0) {
         say(config, 1, 1, "main", "hal_init failed: " + std::string(strerror(-component)));

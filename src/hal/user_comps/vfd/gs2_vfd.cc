@@ -6,20 +6,18 @@
 #include <modbus.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <climits>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <thread>
 
-#include "choices.hh"
+#include "option_values.hh"
 #include "hal.h"
-#include "hardware_time.hh"
+#include "hardware_program.hh"
 
 namespace gs2 {
 
@@ -30,11 +28,6 @@ constexpr int STATUS = 0x2100, STATUS_COUNT = 13;
 constexpr int SPEED = 0x091A, RUN = 0x091B, DIRECTION = 0x091C, FAULT_RESET = 0x091E;
 constexpr int ACCEL = 0x0101, STOP_METHOD = 0x0100, DECEL = 0x0102, STALL_PREVENTION = 0x0605;
 constexpr double COAST_DECEL_S = 20.0;
-constexpr size_t MAX_NAME = 27;
-
-std::atomic<bool> ending{false};
-
-void on_signal(int) { ending = true; }
 
 struct Options {
     std::string name = "gs2_vfd", device = "/dev/ttyS0";
@@ -239,14 +232,6 @@ void usage() {
            "-v shows what is configured, -g the traffic; -R: there is a braking resistor; -X: begins disabled.\n");
 }
 
-bool number(const char *what, const char *text, double low, double high, double &value) {
-    char *end = nullptr;
-    value = strtod(text, &end);
-    if (end != text && *end == '\0' && value >= low && value <= high) return true;
-    fprintf(stderr, "gs2_vfd: %s %s: must be a number from %g to %g\n", what, text, low, high);
-    return false;
-}
-
 /// Status to end with, or none to go on.
 bool parse(int argc, char **argv, Options &o, int &status) {
     status = -1;
@@ -258,13 +243,7 @@ bool parse(int argc, char **argv, Options &o, int &status) {
         case 'd': o.device = optarg; break;
         case 'v': o.verbose = true; break;
         case 'g': o.debug = true; break;
-        case 'n':
-            o.name = optarg;
-            if (o.name.empty() || o.name.size() > MAX_NAME) {
-                fprintf(stderr, "gs2_vfd: name %s: must have 1 to %zu characters\n", optarg, MAX_NAME);
-                return false;
-            }
-            break;
+        case 'n': if (!name_of("gs2_vfd", optarg, o.name)) return false; break;
         case 'p': if (!(chosen = one_of("gs2_vfd", "parity", optarg, {"even", "odd", "none"}))) return false; o.parity = static_cast<char>(toupper(*chosen)); break;
         case 'r':
             chosen = one_of("gs2_vfd", "rate", optarg, {"110", "300", "600", "1200", "2400", "4800", "9600", "19200", "38400", "57600", "115200"});
@@ -272,9 +251,9 @@ bool parse(int argc, char **argv, Options &o, int &status) {
             o.rate = atoi(chosen);
             break;
         case 's': if (!(chosen = one_of("gs2_vfd", "stopbits", optarg, {"1", "2"}))) return false; o.stop = atoi(chosen); break;
-        case 't': if (!number("target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
-        case 'A': if (!number("accel-seconds", optarg, 0, 6553, o.accel_s)) return false; break;
-        case 'D': if (!number("decel-seconds", optarg, 0, 6553, o.decel_s)) return false; break;
+        case 't': if (!number_of("gs2_vfd", "target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
+        case 'A': if (!number_of("gs2_vfd", "accel-seconds", optarg, 0, 6553, o.accel_s)) return false; break;
+        case 'D': if (!number_of("gs2_vfd", "decel-seconds", optarg, 0, 6553, o.decel_s)) return false; break;
         case 'R': o.resistor = true; break;
         case 'X': o.disabled = true; break;
         case 'h': usage(); status = 0; return false;
@@ -293,11 +272,7 @@ int run_program(int argc, char **argv) {
     printf("%s: device='%s', baud=%d, parity='%c', bits=%d, stopbits=%d, address=%d, enabled=%d\n", options.name.c_str(), options.device.c_str(), options.rate, options.parity,
            options.bits, options.stop, options.target, !options.disabled);
     fflush(stdout);
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    live_in_real_time(options.name.c_str());
+    begin_hardware_program(options.name.c_str());
     return Drive(options).run();
 }
 

@@ -4,18 +4,16 @@
 #include <getopt.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
 #include <vector>
 
-#include "choices.hh"
+#include "option_values.hh"
 #include "hal.h"
-#include "hardware_time.hh"
+#include "hardware_program.hh"
 #include "hycomm.hh"
 
 namespace hy {
@@ -27,12 +25,8 @@ constexpr int MAX_FREQUENCY = 5, BASE_FREQUENCY = 4, LOWEST_FREQUENCY = 11, RATE
 constexpr int LAST_PARAMETER = 182;
 constexpr double RATED_AT_HZ = 50, CYCLE_S = 0.1, LOOK_S = 0.01;
 constexpr int OK_AFTER = 10, STOP_TRIES = 5;
-constexpr size_t MAX_NAME = 27, MAX_REGISTERS = 10;
+constexpr size_t MAX_REGISTERS = 10;
 constexpr int STATUSES = 8;
-
-std::atomic<bool> ending{false};
-
-void on_signal(int) { ending = true; }
 
 void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
@@ -248,14 +242,6 @@ void usage() {
            "Defaults: 8 bits, /dev/ttyS0, hy_vfd, even, 19200, 1, 1; what is not given stays as the drive has it.\n");
 }
 
-bool number(const char *what, const char *text, double low, double high, double &value) {
-    char *end = nullptr;
-    value = strtod(text, &end);
-    if (end != text && *end == '\0' && value >= low && value <= high) return true;
-    fprintf(stderr, "hy_vfd: %s %s: must be a number from %g to %g\n", what, text, low, high);
-    return false;
-}
-
 bool a_register(const char *text, Options &o) {
     int number = 0, value = 0;
     char rest;
@@ -281,24 +267,18 @@ bool parse(int argc, char **argv, Options &o, int &status) {
         case 'b': if (!(chosen = one_of("hy_vfd", "bits", optarg, {"5", "6", "7", "8"}))) return false; o.line.bits = atoi(chosen); break;
         case 'd': o.line.device = optarg; break;
         case 'g': o.line.debug = true; break;
-        case 'n':
-            o.name = optarg;
-            if (o.name.empty() || o.name.size() > MAX_NAME) {
-                fprintf(stderr, "hy_vfd: name %s: must have 1 to %zu characters\n", optarg, MAX_NAME);
-                return false;
-            }
-            break;
+        case 'n': if (!name_of("hy_vfd", optarg, o.name)) return false; break;
         case 'p': if (!(chosen = one_of("hy_vfd", "parity", optarg, {"even", "odd", "none"}))) return false; o.line.parity = static_cast<char>(*chosen - 'a' + 'A'); break;
         case 'r': if (!(chosen = one_of("hy_vfd", "rate", optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}))) return false; o.line.rate = atoi(chosen); break;
         case 's': if (!(chosen = one_of("hy_vfd", "stopbits", optarg, {"1", "2"}))) return false; o.line.stop = atoi(chosen); break;
-        case 't': if (!number("target", optarg, 1, 254, value)) return false; o.line.target = static_cast<int>(value); break;
-        case 'F': if (!number("max-frequency", optarg, 0, 650, o.max_hz)) return false; break;
-        case 'f': if (!number("min-frequency", optarg, 0, 650, o.min_hz)) return false; break;
-        case 'B': if (!number("base-frequency", optarg, 0, 400, o.base_hz)) return false; break;
-        case 'V': if (!number("motor-voltage", optarg, 0, 6500, o.volts)) return false; break;
-        case 'I': if (!number("motor-current", optarg, 0, 6500, o.amperes)) return false; break;
-        case 'S': if (!number("motor-speed", optarg, 0, 1e6, o.rpm)) return false; break;
-        case 'P': if (!number("motor-poles", optarg, 0, 255, value)) return false; o.poles = static_cast<int>(value); break;
+        case 't': if (!number_of("hy_vfd", "target", optarg, 1, 254, value)) return false; o.line.target = static_cast<int>(value); break;
+        case 'F': if (!number_of("hy_vfd", "max-frequency", optarg, 0, 650, o.max_hz)) return false; break;
+        case 'f': if (!number_of("hy_vfd", "min-frequency", optarg, 0, 650, o.min_hz)) return false; break;
+        case 'B': if (!number_of("hy_vfd", "base-frequency", optarg, 0, 400, o.base_hz)) return false; break;
+        case 'V': if (!number_of("hy_vfd", "motor-voltage", optarg, 0, 6500, o.volts)) return false; break;
+        case 'I': if (!number_of("hy_vfd", "motor-current", optarg, 0, 6500, o.amperes)) return false; break;
+        case 'S': if (!number_of("hy_vfd", "motor-speed", optarg, 0, 1e6, o.rpm)) return false; break;
+        case 'P': if (!number_of("hy_vfd", "motor-poles", optarg, 0, 255, value)) return false; o.poles = static_cast<int>(value); break;
         case REGISTER: if (!a_register(optarg, o)) return false; break;
         case DUMP: o.dump = true; break;
         case 'h': usage(); status = 0; return false;
@@ -314,11 +294,7 @@ int run_program(int argc, char **argv) {
     Options options;
     int status;
     if (!parse(argc, argv, options, status)) return status;
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    live_in_real_time(options.name.c_str());
+    begin_hardware_program(options.name.c_str());
     return Drive(options).run();
 }
 

@@ -7,18 +7,16 @@
 #include <modbus.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <thread>
 
-#include "choices.hh"
+#include "option_values.hh"
 #include "hal.h"
-#include "hardware_time.hh"
+#include "hardware_program.hh"
 
 namespace percent {
 
@@ -46,10 +44,6 @@ constexpr Kind KINDS[] = {
     {"svd-ps_vfd", 9600, 2, 0x2000, 0x1000, 30000, 5, NO_REGISTER,
      {{"freq-fb", 0x1001, 0.01}, {"dc-bus-voltage", 0x1002, 0.1}, {"output-voltage", 0x1003, 1}, {"output-current", 0x1004, 1}, {"speed-fb", 0x1005, 1}, {"output-power", 0x1006, 1},
       {"input-terminal", 0x1009, 1}, {"AI1", 0x100a, 0.001}, {"AI2", 0x100b, 0.001}, {}, {}, {}}}};
-
-std::atomic<bool> ending{false};
-
-void on_signal(int) { ending = true; }
 
 struct Options {
     std::string device = "/dev/ttyS0";
@@ -198,14 +192,6 @@ void usage(const Kind &kind) {
            "Defaults: /dev/ttyS0, %d, 8 bits, none, %d, 1.\n", kind.name, kind.rate, kind.stop);
 }
 
-bool number(const Kind &kind, const char *what, const char *text, double low, double high, double &value) {
-    char *end = nullptr;
-    value = strtod(text, &end);
-    if (end != text && *end == '\0' && value >= low && value <= high) return true;
-    fprintf(stderr, "%s: %s %s: must be a number from %g to %g\n", kind.name, what, text, low, high);
-    return false;
-}
-
 /// False with the status to end with.
 bool parse(const Kind &kind, int argc, char **argv, Options &o, int &status) {
     status = 1;
@@ -215,15 +201,15 @@ bool parse(const Kind &kind, int argc, char **argv, Options &o, int &status) {
         const char *chosen = nullptr;
         double value = 0;
         switch (c) {
-        case 'S': if (!number(kind, "motor-max-speed", optarg, 1, 1e6, o.max_speed)) return false; break;
-        case 'F': if (!number(kind, "max-frequency", optarg, 0.01, 10000, o.max_hz)) return false; break;
-        case 'f': if (!number(kind, "min-frequency", optarg, 0.01, 10000, o.min_hz)) return false; break;
+        case 'S': if (!number_of(kind.name, "motor-max-speed", optarg, 1, 1e6, o.max_speed)) return false; break;
+        case 'F': if (!number_of(kind.name, "max-frequency", optarg, 0.01, 10000, o.max_hz)) return false; break;
+        case 'f': if (!number_of(kind.name, "min-frequency", optarg, 0.01, 10000, o.min_hz)) return false; break;
         case 'd': o.device = optarg; break;
         case 'r': if (!(chosen = one_of(kind.name, "rate", optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}))) return false; o.rate = atoi(chosen); break;
         case 'b': if (!(chosen = one_of(kind.name, "bits", optarg, {"5", "6", "7", "8"}))) return false; o.bits = atoi(chosen); break;
         case 'p': if (!(chosen = one_of(kind.name, "parity", optarg, {"even", "odd", "none"}))) return false; o.parity = static_cast<char>(*chosen - 'a' + 'A'); break;
         case 's': if (!(chosen = one_of(kind.name, "stopbits", optarg, {"1", "2"}))) return false; o.stop = atoi(chosen); break;
-        case 't': if (!number(kind, "target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
+        case 't': if (!number_of(kind.name, "target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
         case 'v': o.verbose = true; break;
         case 'h': usage(kind); status = 0; return false;
         default: return false;
@@ -241,11 +227,7 @@ int run_program(int argc, char **argv) {
     Options options;
     int status;
     if (!parse(kind, argc, argv, options, status)) return status;
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    live_in_real_time(kind.name);
+    begin_hardware_program(kind.name);
     return Drive(kind, options).run();
 }
 

@@ -5,17 +5,15 @@
 #include <libusb.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
 
 #include "hal.h"
-#include "hardware_time.hh"
+#include "hardware_program.hh"
 #include "pendant.hh"
 
 namespace xhc {
@@ -28,10 +26,6 @@ constexpr uint8_t DEFAULT_ENDPOINT = 0x81;
 constexpr double MAX_WAIT_SECS = 10, SEARCH_S = 1, AFTER_LOSS_S = 5, STILL_S = 0.25;
 
 using Clock = std::chrono::steady_clock;
-
-std::atomic<bool> ending{false};
-
-void on_signal(int) { ending = true; }
 
 double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
@@ -396,11 +390,7 @@ int run_program(int argc, char **argv) {
     }
     std::vector<Button> buttons;
     if (!options.layout.empty() && !read_layout(options.layout, buttons)) return 1;
-    struct sigaction action = {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    live_in_real_time("xhc-hb04");
+    begin_hardware_program("xhc-hb04");
     return Program(options, std::move(buttons)).run();
 }
 
