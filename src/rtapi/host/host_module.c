@@ -17,10 +17,15 @@
 #include <string.h>
 #include "kerf_paths.h"
 
+struct text { /* a string parameter: the module's as long as its code is there */
+    struct text *next;
+    char value[];
+};
 struct module {
     struct module *older;
     void *handle;
     void (*exit)(void);
+    struct text *texts;
     char name[];
 };
 static struct module *newest;
@@ -53,7 +58,7 @@ static void *info(void *handle, const char *kind, const char *parameter)
 }
 
 /* Stores one value at element i. word: the whole "name=value", for messages. */
-static int store(const char *word, char type, void *address, int i, const char *value)
+static int store(struct module *m, const char *word, char type, void *address, int i, const char *value)
 {
     char *end;
     errno = 0;
@@ -77,11 +82,14 @@ static int store(const char *word, char type, void *address, int i, const char *
         return 0;
     }
     case 's': {
-        char *copy = strdup(value); /* the module keeps it */
-        if (!copy) {
+        struct text *text = malloc(sizeof *text + strlen(value) + 1);
+        if (!text) {
             return -1;
         }
-        ((char **)address)[i] = copy;
+        strcpy(text->value, value);
+        text->next = m->texts;
+        m->texts = text;
+        ((char **)address)[i] = text->value;
         return 0;
     }
     default:
@@ -90,7 +98,7 @@ static int store(const char *word, char type, void *address, int i, const char *
     }
 }
 
-static int store_array(const char *word, const char *name, char type, void *address, int size, char *values)
+static int store_array(struct module *m, const char *word, const char *name, char type, void *address, int size, char *values)
 {
     char *value = values;
     for (int i = 0; value; i++) {
@@ -102,7 +110,7 @@ static int store_array(const char *word, const char *name, char type, void *addr
             say("%s: can only take %d arguments\n", name, size);
             return -1;
         }
-        if (store(word, type, address, i, value) < 0) {
+        if (store(m, word, type, address, i, value) < 0) {
             return -1;
         }
         value = comma ? comma + 1 : NULL;
@@ -111,7 +119,7 @@ static int store_array(const char *word, const char *name, char type, void *addr
 }
 
 /* word is changed. 0 or -1. */
-static int set_parameter(void *handle, char *word)
+static int set_parameter(struct module *m, char *word)
 {
     char *to = word;
     for (const char *from = word; *from; from++) {
@@ -129,9 +137,9 @@ static int set_parameter(void *handle, char *word)
     char *name = strndup(word, (size_t)(equals - word));
     int result = -1;
     if (values && name) {
-        void *address_info = info(handle, "address", name);
-        void *type_info = info(handle, "type", name);
-        void *size_info = info(handle, "size", name);
+        void *address_info = info(m->handle, "address", name);
+        void *type_info = info(m->handle, "type", name);
+        void *size_info = info(m->handle, "size", name);
         if (!address_info) {
             say("Unknown parameter `%s'\n", word);
         } else if (!type_info) {
@@ -139,8 +147,8 @@ static int set_parameter(void *handle, char *word)
         } else {
             char type = **(const char **)type_info;
             void *address = *(void **)address_info;
-            result = size_info ? store_array(word, name, type, address, *(int *)size_info, values)
-                               : store(word, type, address, 0, values);
+            result = size_info ? store_array(m, word, name, type, address, *(int *)size_info, values)
+                               : store(m, word, type, address, 0, values);
         }
     }
     free(values);
@@ -149,6 +157,31 @@ static int set_parameter(void *handle, char *word)
 }
 
 /* ---- Load and unload ---------------------------------------------------- */
+
+static void module_path(char *path, size_t size, const char *name)
+{
+    snprintf(path, size, "%s/%s.so", kerf_path(KERF_PATH_RTLIB), name);
+}
+
+/* Gives module and parameters back. Code that others still use stays, and its strings with it. */
+static void drop(struct module *m)
+{
+    char path[PATH_MAX];
+    module_path(path, sizeof path, m->name);
+    if (m->handle) {
+        dlclose(m->handle);
+    }
+    void *stays = m->texts ? dlopen(path, RTLD_LAZY | RTLD_NOLOAD) : NULL;
+    if (stays) {
+        dlclose(stays);
+    }
+    while (m->texts && !stays) {
+        struct text *text = m->texts;
+        m->texts = text->next;
+        free(text);
+    }
+    free(m);
+}
 
 static int start_module(struct module *m, int argc, char **argv)
 {
@@ -163,7 +196,7 @@ static int start_module(struct module *m, int argc, char **argv)
         return -1;
     }
     for (int i = 0; i < argc; i++) {
-        if (set_parameter(m->handle, argv[i]) < 0) {
+        if (set_parameter(m, argv[i]) < 0) {
             return -1;
         }
     }
@@ -192,17 +225,16 @@ int host_load(int argc, char **argv)
         return -1;
     }
     strcpy(m->name, name);
-    snprintf(path, sizeof path, "%s/%s.so", kerf_path(KERF_PATH_RTLIB), name);
+    module_path(path, sizeof path, name);
     m->handle = dlopen(path, RTLD_GLOBAL | RTLD_NOW);
     if (!m->handle) {
         say("%s: dlopen: %s\n", name, dlerror());
-        free(m);
+        drop(m);
         return -1;
     }
     int result = start_module(m, argc - 1, argv + 1);
     if (result < 0) {
-        dlclose(m->handle);
-        free(m);
+        drop(m);
         return result;
     }
     m->older = newest;
@@ -222,8 +254,7 @@ static void end_module(struct module *m)
         host_tasks_end_of(where.dli_fbase, m->name);
     }
     *link = m->older;
-    dlclose(m->handle);
-    free(m);
+    drop(m);
 }
 
 int host_unload(const char *name)
