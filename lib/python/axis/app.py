@@ -2,7 +2,6 @@
 """The AXIS screen: start-up in the documented order, modes, offsets, overrides."""
 
 import getopt
-import gettext
 import os
 import signal
 import sys
@@ -11,7 +10,7 @@ import tkinter as tk
 import traceback
 
 import linuxcnc
-from kerf import clock, gl
+from kerf import clock, gl, language
 from kerf.tktools import ngcgui_tabs
 from kerf.tree import Tree
 
@@ -56,7 +55,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.wait_for_status()
         self.prefs = Preferences()
         self.vars = Variables(root)
-        self.translate = gettext.translation("linuxcnc", Tree.find().locale, fallback=True).gettext
+        self.translate = language._
         self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
         self.loaded_file = self.shown_file = None
         self.is_filtered = self.loading = self.cancel_loading = False

@@ -8,10 +8,11 @@ from types import SimpleNamespace
 
 import linuxcnc
 from kerf import clock
+from kerf.language import N_
 
 from .dro import active_codes, tool_text
 from .jog import position
-from .settings import LETTERS, N_
+from .settings import LETTERS
 
 POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("Position: Machine Commanded"),
              (True, False): N_("Position: Relative Actual"), (True, True): N_("Position: Relative Commanded")}     # relative, commanded

@@ -11,11 +11,6 @@ LETTERS = "XYZABCUVW"
 MM_PER_INCH = 25.4
 
 
-def N_(text):
-    """Marks a text that is translated later."""
-    return text
-
-
 class SettingsError(Exception):
     """A setting without which the screen cannot start; the text names it."""
 

@@ -16,10 +16,11 @@ from types import SimpleNamespace
 
 import hal
 import linuxcnc
+from kerf.language import N_
 
 from . import dialogs
 from . import help as help_texts
-from .settings import LETTERS, N_
+from .settings import LETTERS
 from .touchoff import Checker
 
 

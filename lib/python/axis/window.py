@@ -6,6 +6,7 @@ import tkinter.ttk
 from types import SimpleNamespace
 
 import linuxcnc
+from kerf.language import N_
 from kerf.tree import Tree
 
 from . import commands as command_table
@@ -17,7 +18,7 @@ from .keys import Keys
 from .looks import SCALES, LooksPart
 from .notify import WRAP_PX, Notifications
 from .preview import Preview
-from .settings import LETTERS, MM_PER_INCH, N_, parse_increment
+from .settings import LETTERS, MM_PER_INCH, parse_increment
 from .variables import Options
 
 VERBS = {"Home": N_("Home"), "Unhome": N_("Unhome")}

@@ -13,12 +13,13 @@ from tkinter import ttk
 import hal
 
 from .. import clock, tkstyle
+from ..language import _, N_
 
 POLL_S = 0.1
 ANSWER_S = 0.0005       # between two looks whether the controller has seen the answer
 WITHDRAW_S = 10.0
 CLOCK_PRIORITY = 500
-TITLE = "Tool change"
+TITLE = N_("Tool change")
 NAME = "hal_manualtoolchange"
 ICON = "::tk::icons::information"
 
@@ -77,17 +78,17 @@ class Exchange:
 def request_text(number):
     """What the operator reads. Tool data come from the status channel."""
     if number == 0:
-        return "Remove the tool and click continue when ready"
+        return _("Remove the tool and click continue when ready")
     try:
         import linuxcnc
         stat = linuxcnc.stat()
         stat.poll()
         tool = stat.toolinfo(number)
         units = linuxcnc.ini(os.environ["INI_FILE_NAME"]).find("TRAJ", "LINEAR_UNITS") or ""
-        return ("Insert tool and click continue when ready.\n\n"
-                f"Tool number: {number}\nDiameter: {tool['diameter']:.4f}{units}\nComment: {tool['comment']}")
+        return _("Insert tool and click continue when ready.\n\nTool number: %d\nDiameter: %.4f%s\nComment: %s") % (
+            number, tool["diameter"], units, tool["comment"])
     except Exception as e:      # the request must be shown, whatever is wrong with the data
-        return f"Insert tool {number} and click continue when ready\n\nError: {e}"
+        return _("Insert tool %d and click continue when ready\n\nError: %s") % (number, e)
 
 
 class Window:
@@ -98,7 +99,7 @@ class Window:
         style = self.style = tkstyle.apply(root)
         root.title("AXIS Manual Toolchanger")
         root.geometry("-60-60")
-        ttk.Label(root, text="This window watches for tool changes.\nIt hides by itself.", padding=style.px(20)).pack()
+        ttk.Label(root, text=_("This window watches for tool changes.\nIt hides by itself."), padding=style.px(20)).pack()
         root.protocol("WM_DELETE_WINDOW", root.withdraw)
 
     def tick(self):
@@ -116,7 +117,7 @@ class Window:
         px = self.style.px
         dialog = self.dialog = tk.Toplevel(self.root, class_="Dialog")
         dialog.withdraw()
-        dialog.title(TITLE)
+        dialog.title(_(TITLE))
         dialog.attributes("-topmost", True)
         box = ttk.Frame(dialog, padding=px(20))
         box.pack(fill="both", expand=True)
@@ -126,7 +127,7 @@ class Window:
             pass
         self.text = ttk.Label(box, text=request_text(self.exchange.pins["number"]), justify="left", wraplength=px(480))
         self.text.grid(row=0, column=1, sticky="w")
-        self.button = ttk.Button(box, text="Continue", command=self.confirm)
+        self.button = ttk.Button(box, text=_("Continue"), command=self.confirm)
         self.button.grid(row=1, column=0, columnspan=2, pady=(px(20), 0), ipadx=px(12), ipady=px(8))
         self.button.focus_set()
         dialog.bind("<Return>", lambda event: self.confirm())

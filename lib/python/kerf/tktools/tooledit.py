@@ -9,6 +9,7 @@ from pathlib import Path
 from tkinter import messagebox, ttk
 
 from .. import instance, tkstyle
+from ..language import _, N_
 from . import tclprefs
 from .sheet import Column, Sheet
 from .tooltable import COLUMNS, COMMENT, Row, Table, chosen_columns, is_number
@@ -70,7 +71,7 @@ class Window:
         root.update_idletasks()
         least = self.bar.winfo_reqwidth() + style.px(8)         # with all buttons
         tkstyle.centre(root, max(self.sheet.winfo_reqwidth() + style.px(30), least), style.px(460), (least, style.px(240)))
-        values, _ = tclprefs.read(rc)
+        values = tclprefs.read(rc)[0]
         if "geometry" in values:
             try:
                 root.geometry(values["geometry"])
@@ -80,7 +81,8 @@ class Window:
         for key, action in (("<Control-s>", self.save), ("<Control-q>", self.quit)):
             root.bind(key, lambda event, a=action: a() and None)
         self.sheet.show(table.rows)
-        self.say(f"{len(table.rows)} tools" + (f"; {len(table.rejected)} bogus lines stay in the file as they are" if table.rejected else ""))
+        rejected = _("; %d bogus lines stay in the file as they are") % len(table.rejected) if table.rejected else ""
+        self.say(_("%d tools") % len(table.rows) + rejected)
         self.changed()
         self.poll()
 
@@ -88,9 +90,9 @@ class Window:
         bar = self.bar = ttk.Frame(self.root, padding=self.style.px(4))
         bar.pack(side="bottom", fill="x")
         self.buttons = {}
-        for name, action in (("Delete", self.delete), ("AddTool", self.add), ("ReRead", self.reread), ("SaveFile", self.save),
-                             ("ReLoadTable", self.reload), ("Quit", self.quit)):
-            self.buttons[name] = ttk.Button(bar, text=name, command=action)
+        for name, action in ((N_("Delete"), self.delete), (N_("AddTool"), self.add), (N_("ReRead"), self.reread), (N_("SaveFile"), self.save),
+                             (N_("ReLoadTable"), self.reload), (N_("Quit"), self.quit)):
+            self.buttons[name] = ttk.Button(bar, text=_(name), command=action)
             self.buttons[name].pack(side="left", expand=True, fill="x", padx=self.style.px(2))
 
     def say(self, text, bad=False):
@@ -107,7 +109,7 @@ class Window:
         gone = {id(row) for row in self.sheet.ticked_rows()}
         self.table.rows[:] = [row for row in self.table.rows if id(row) not in gone]
         self.sheet.show(self.table.rows)
-        self.say(f"{len(gone)} deleted (in the file with SaveFile)")
+        self.say(_("%d deleted (in the file with SaveFile)") % len(gone))
         self.changed()
 
     def add(self):
@@ -121,7 +123,8 @@ class Window:
         self.order = (letter, decreasing)
         self.table.sort(letter, decreasing)
         self.sheet.show(self.table.rows)
-        self.say(f"Sorted by {TITLES.get(letter, letter)}, {'decreasing' if decreasing else 'increasing'}")
+        text = _("Sorted by %s, decreasing") if decreasing else _("Sorted by %s, increasing")
+        self.say(text % TITLES.get(letter, letter))
         self.changed()
 
     def reread(self):
@@ -131,7 +134,7 @@ class Window:
             return self.say(str(error), True)
         self.warned = None
         self.sheet.show(self.table.rows)
-        self.say(f"Read again: {len(self.table.rows)} tools")
+        self.say(_("Read again: %d tools") % len(self.table.rows))
         self.changed()
         return None
 
@@ -141,28 +144,28 @@ class Window:
         problems = self.table.problems(self.controller.random and self.controller.look() != "none")
         if problems:
             self.show_problems(problems)
-            self.say("Not saved", True)
+            self.say(_("Not saved"), True)
             return False
-        if self.warned and not messagebox.askyesno("tooledit", f"{self.warned}.\nReplace it with what is shown here?", parent=self.root):
+        if self.warned and not messagebox.askyesno("tooledit", _("%s.\nReplace it with what is shown here?") % self.warned, parent=self.root):
             return False
         try:
             self.table.save()
         except (OSError, UnicodeEncodeError) as error:
-            self.say(f"Not saved: {error}", True)
+            self.say(_("Not saved: %s") % error, True)
             return False
         self.warned = None
-        self.say(f"Saved {self.table.path}; the old file is {self.table.path.name}.bak")
+        self.say(_("Saved %s; the old file is %s.bak") % (self.table.path, self.table.path.name))
         self.changed()
         return True
 
     def reload(self):
         if self.save():
             self.controller.reload()
-            self.say("Saved; the controller reads the table again")
+            self.say(_("Saved; the controller reads the table again"))
 
     def quit(self):
         if self.table.modified:
-            answer = messagebox.askyesnocancel("tooledit", f"Save the changes to {self.table.path.name}?", parent=self.root)
+            answer = messagebox.askyesnocancel("tooledit", _("Save the changes to %s?") % self.table.path.name, parent=self.root)
             if answer is None or (answer and not self.save()):
                 return
         self.remember()
@@ -173,10 +176,10 @@ class Window:
     def show_problems(self, problems):
         """A list of what is wrong."""
         window = tk.Toplevel(self.root)
-        window.title("tooledit: please correct")
+        window.title("tooledit: " + _("please correct"))
         window.transient(self.root)
         style = self.style
-        ttk.Button(window, text="Close", command=window.destroy).pack(side="bottom", pady=style.px(8))
+        ttk.Button(window, text=_("Close"), command=window.destroy).pack(side="bottom", pady=style.px(8))
         box = tk.Listbox(window, width=min(90, max(len(p) for p in problems) + 2), height=min(20, len(problems) + 1))
         bar = ttk.Scrollbar(window, command=box.yview)
         box.configure(yscrollcommand=bar.set)
@@ -205,7 +208,7 @@ class Window:
         stamp = self.table.look()
         if stamp != self.table.stamp:
             self.table.stamp = stamp
-            self.warned = "Warning: File changed by another process" if stamp else "Warning: File deleted by another process"
+            self.warned = _("Warning: File changed by another process") if stamp else _("Warning: File deleted by another process")
             self.say(self.warned, True)
 
     def remember(self):
