@@ -258,6 +258,12 @@ proc ::axis::tool_program {name args} {
     if {[catch {exec $name {*}$args &} message]} { ::axis::notify_error "$name: $message" }
 }
 
+# A radio or check button with a mark as large as the letters: Tk's own does not grow with the screen.
+proc ::axis::marked {w kind} {
+    $w configure -indicatoron 0 -image [load_image ${kind}_off] -selectimage [load_image ${kind}_on] -compound left -padx 4 \
+        -borderwidth 0 -relief flat -offrelief flat -overrelief flat -selectcolor $::axis::colour(face)
+}
+
 # -- left side: manual control, MDI, overrides ---------------------------------------------
 
 proc ::axis::build_manual {f} {
@@ -266,6 +272,7 @@ proc ::axis::build_manual {f} {
     foreach letter {x y z a b c u v w} {
         radiobutton $f.axes.axis$letter -text [string toupper $letter] -value $letter -variable ja_rbutton \
             -command axis_activated -anchor w -takefocus 0
+        marked $f.axes.axis$letter radio
     }
     foreach {letter row column} {x 0 0 y 0 1 z 0 2 a 1 0 b 1 1 c 1 2 u 2 0 v 2 1 w 2 2} {
         grid $f.axes.axis$letter -row $row -column $column -padx 6 -sticky w
@@ -273,6 +280,7 @@ proc ::axis::build_manual {f} {
     frame $f.joints
     for {set j 0} {$j < $::MAX_JOINTS} {incr j} {
         radiobutton $f.joints.joint$j -text $j -value $j -variable ja_rbutton -command axis_activated -anchor w -takefocus 0
+        marked $f.joints.joint$j radio
         grid $f.joints.joint$j -row [expr {$j / 4}] -column [expr {$j % 4}] -padx 6 -sticky w
     }
     frame $f.jogf
@@ -298,6 +306,7 @@ proc ::axis::build_manual {f} {
     pack $f.jogf.zerohome.home $f.jogf.zerohome.zero $f.jogf.zerohome.tooltouch -side left -padx 2
     checkbutton $f.jogf.override -variable override_limits -command toggle_override_limits -anchor w -takefocus 0
     setup_widget_accel $f.jogf.override [_ "Override Limits"]
+    marked $f.jogf.override check
     pack $f.jogf.jog -fill x -pady 2
     pack $f.jogf.zerohome -fill x -pady 2
     pack $f.jogf.override -fill x
@@ -321,6 +330,7 @@ proc ::axis::build_manual {f} {
     pack $f.spindlef.spindleminus $f.spindlef.spindleplus -in $f.spindlef.row2 -side left -padx 2
     checkbutton $f.spindlef.brake -variable brake -command brake -anchor w -takefocus 0
     setup_widget_accel $f.spindlef.brake [_ "Brake"]
+    marked $f.spindlef.brake check
     pack $f.spindlef.brake -in $f.spindlef.row2 -side left -padx 6
     pack $f.spindlef.row1 $f.spindlef.row2 -anchor w -pady 2 -side $::axis::spindle_side
     frame $f.space2 -height $::axis::gap
@@ -329,6 +339,8 @@ proc ::axis::build_manual {f} {
     checkbutton $f.flood -variable flood -command flood -anchor w -takefocus 0
     setup_widget_accel $f.mist [_ "Mist"]
     setup_widget_accel $f.flood [_ "Flood"]
+    marked $f.mist check
+    marked $f.flood check
 
     set row -1
     foreach {label content} {

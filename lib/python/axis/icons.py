@@ -8,7 +8,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 OVERSAMPLE = 4
 INK, BAD, GOOD, BLUE, QUIET, GOLD = "#2b2f36", "#c62828", "#1f8a3b", "#1f5fa8", "#8a919c", "#c98a00"
-DARK_INK = "#e4e6ea"
+DARK_INK, DARK_BLUE = "#e4e6ea", "#7fb2f0"
 
 
 class Pen:
@@ -151,7 +151,26 @@ def turning(start, end, head):
     return draw
 
 
-DRAWINGS = {
+def radio(on):
+    def draw(p):
+        p.ring(12, 12, 10)
+        if on:
+            p.disc(12, 12, 5.5, BLUE if p.ink == INK else DARK_BLUE)
+    return draw
+
+
+def check(on):
+    def draw(p):
+        for x0, y0, x1, y1 in ((3, 3, 21, 3), (21, 3, 21, 21), (21, 21, 3, 21), (3, 21, 3, 3)):
+            p.line(x0, y0, x1, y1)
+        if on:
+            p.line(7, 12, 11, 16.5, 18, 7, colour=BLUE if p.ink == INK else DARK_BLUE, width=3.5)
+    return draw
+
+
+MARKS = {"radio_off": radio(False), "radio_on": radio(True), "check_off": check(False), "check_on": check(True)}
+MARK_SIZE = 0.62             # of the tool bar's icons
+DRAWINGS = MARKS | {
     "estop": estop, "power": power, "open": open_, "reload": reload, "run": run, "step": step, "pause": pause,
     "pause_inhibited": pause_inhibited, "stop": stop, "blockdelete": blockdelete, "optpause": optpause,
     "zoomin": lambda p: magnifier(p, True), "zoomout": lambda p: magnifier(p, False),
@@ -170,7 +189,7 @@ class Icons:
         self.images = {}
 
     def png(self, name):
-        pen = Pen(self.size, self.ink)
+        pen = Pen(round(self.size * MARK_SIZE) if name in MARKS else self.size, self.ink)
         DRAWINGS[name](pen)
         return pen.png()
 

@@ -136,6 +136,8 @@ class LooksPart:
         t.tag_configure("executing", background=self.colours["running"], foreground="#ffffff")
         t.tag_configure("sel", background=self.colours["select"], foreground="#ffffff")
         t.tag_configure("ignored", foreground="#808080")
+        for tag in ("executing", "sel"):         # above the numbers
+            t.tag_raise(tag)
 
     # -- what the View menu calls ----------------------------------------------------------
 
