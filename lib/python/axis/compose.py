@@ -188,7 +188,7 @@ class Composer:
                 beside = 2 if axis != 2 else 1
             points, kinds, texts = shapes.dimension(low, high, axis, beside, o.metric, zero[axis])
             over = (False, False)
-            if limits is not None:
+            if limits is not None and "XYZ"[axis] in self.s.axes:
                 over = (with_tool[0][axis] < limits[0][axis] - 1e-6, with_tool[1][axis] > limits[1][axis] + 1e-6)
             flags = (*over, any(over))
             self.scene.after.append(self.item((shapes.turned(points, turn, about), kinds), "label_limit" if any(over) else "label_ok"))

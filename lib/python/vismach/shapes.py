@@ -100,31 +100,27 @@ def frustum_volume(a1, r1, a2, r2):
     return math.pi * abs(a2 - a1) * (r1 * r1 + r1 * r2 + r2 * r2) / 3
 
 
-class CylinderX(Shape):
+class Cylinder(Shape):
+    """A frustum along an axis; `laid` gives x, y, z of a place along and across it."""
+    volume_of = staticmethod(frustum_volume)
+
+    def mesh(self, mesh, *numbers):
+        frustum(mesh, *numbers, self.laid)
+
+
+class CylinderX(Cylinder):
     arguments = "x1", "r1", "x2", "r2"
-
-    def mesh(self, mesh, *numbers):
-        frustum(mesh, *numbers, lambda a, u, v: (a, u, v))
-
-    volume_of = staticmethod(frustum_volume)
+    laid = staticmethod(lambda a, u, v: (a, u, v))
 
 
-class CylinderY(Shape):
+class CylinderY(Cylinder):
     arguments = "y1", "r1", "y2", "r2"
-
-    def mesh(self, mesh, *numbers):
-        frustum(mesh, *numbers, lambda a, u, v: (v, a, u))
-
-    volume_of = staticmethod(frustum_volume)
+    laid = staticmethod(lambda a, u, v: (v, a, u))
 
 
-class CylinderZ(Shape):
+class CylinderZ(Cylinder):
     arguments = "z1", "r1", "z2", "r2"
-
-    def mesh(self, mesh, *numbers):
-        frustum(mesh, *numbers, lambda a, u, v: (u, v, a))
-
-    volume_of = staticmethod(frustum_volume)
+    laid = staticmethod(lambda a, u, v: (u, v, a))
 
 
 class Sphere(Shape):

@@ -210,6 +210,11 @@ def reports(op):
     op.root.tk.call("fails")
     op.wait(0.2)
     print("FP-188: told:", "on purpose" in op.messages()[-1], "report named:", "report-" in op.messages()[-1], "the screen goes on:", op.stat.task_state == linuxcnc.STATE_ON)
+    with open(op.messages()[-1].split("Report: ")[1]) as f:
+        report = f.read()
+    events = report.split("the last ")[1].splitlines()
+    print("FP-188: report: stack", "on purpose" in report and "in fails" in report, "configuration hash", len(report.split("sha256 ")[1].split()[0]) == 64,
+          "events", 20 < int(events[0].split()[0]) <= 1000 and len(events) > 20, "last:", events[-1].split(" ", 1)[1])
 
 
 def fails(*args):
