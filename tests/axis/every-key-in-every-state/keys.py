@@ -4,10 +4,11 @@ import os
 import sys
 import tkinter as tk
 from tkinter import filedialog
+from types import SimpleNamespace
 
 import linuxcnc
 import operator_lib as lib
-from axis import dialogs
+from axis import commands, dialogs
 
 SHIFT, CONTROL, ALT, NUMLOCK = 1, 4, 8, 16
 # (keysym, modifiers): the table of the reference in its order; then combinations that must do nothing
@@ -29,6 +30,8 @@ AUTO = {value: name for name, value in vars(linuxcnc).items() if name.startswith
 JOG = {value: name[4:].lower() for name, value in vars(linuxcnc).items() if name.startswith("JOG_")}
 STATES = {value: name[6:] for name, value in vars(linuxcnc).items() if name.startswith("STATE_")}
 SHOWN = "ja_rbutton jogincrement jog_slider_val ajog_slider_val maxvel_slider_val feedrate metric display_type coord_type rotate_mode view_type mdi_command".split()
+CHOICES = ("show_program show_rapids program_alpha show_live_plot show_tool show_extents show_offsets show_machine_limits show_machine_speed "
+           "show_distance_to_go dro_large_font grid_size optional_stop block_delete tto_g11 dark_theme large_touch_targets interface_scale").split()
 told = []
 
 
@@ -68,6 +71,10 @@ def script(op):
     app, root = op.app, op.root
     patch_dialogs()
     states, wanted = os.environ["STATES"].split(), os.environ["KEYS"].split()
+    if os.environ.get("MENUS"):
+        menus(op, out)
+        out.close()
+        return
     results = {}
     for state in states:
         enter(op, state)
@@ -105,6 +112,41 @@ def script(op):
             print("   ", " ".join(where) + ":", effect, file=out)
     print("nothing anywhere:", *silent, file=out)
     out.close()
+
+
+def menus(op, out):
+    """Each entry of each menu, chosen on a homed machine that is on and idle."""
+    app, tcl = op.app, op.root.tk
+    commands.subprocess = SimpleNamespace(Popen=lambda words, **more: told.append("starts " + " ".join(os.path.basename(w) for w in words)))
+    tcl.createcommand("::axis::tool_program", lambda *words: told.append("starts " + " ".join(os.path.basename(w) for w in words)))
+    app.preview.clear_plot = lambda: told.append("clears the plot")
+    enter(op, "spindle")
+    base = look(op)
+    for menu in ("file", "file.recent", "machine", "machine.home", "machine.unhome", "machine.clearoffset", "view", "view.grid", "view.size", "help"):
+        path = f".menu.{menu}"
+        for i in range(int(tcl.call(path, "index", "end")) + 1):
+            kind = str(tcl.call(path, "type", i))
+            if kind not in ("command", "checkbutton", "radiobutton"):
+                continue
+            label = str(tcl.call(path, "entrycget", i, "-label"))
+            if label == "Quit":
+                continue
+            if str(tcl.call(path, "entrycget", i, "-state")) == "disabled":
+                print(f"{menu}: {label}: disabled", file=out)
+                continue
+            told.clear()
+            before, options = look(op), {n: getattr(app.vars, n).get() for n in CHOICES}
+            tcl.call(path, "invoke", i)
+            op.wait(0.1)
+            effect = [*told, *(f"{n}={v}" for n, v in look(op).items() if v != before[n])]
+            effect += [f"{n}={getattr(app.vars, n).get()}" for n in CHOICES if getattr(app.vars, n).get() != options[n]]
+            effect += [f"shows {w}" for w in (".about", ".keys") if str(tcl.call("wm", "state", w)) == "normal"]
+            print(f"{menu}: {label}: {'; '.join(effect) or '-'}", file=out)
+            for w in (".about", ".keys"):
+                tcl.call("wm", "withdraw", w)
+            for n in CHOICES:
+                getattr(app.vars, n).set(options[n])
+            again(op, "spindle", base)
 
 
 def name(key, modifiers):

@@ -16,6 +16,7 @@ run() { # machine, states, [keys]
 ini_edit='s|^CYCLE_TIME = 0.100|CYCLE_TIME = 20|'
 axes="Left Right Up Down bracketleft minus less greater grave 1 x a dollar Home End d v"
 run mill "estop unhomed spindle entry run paused"
+MENUS=1 run mill ""
 run mill "off manual mdi" "F2 F3 F4 F5 F7 F9 F11 b o r t p s Left minus i v Escape Home End space"
 run xyza "manual" "$axes"
 run lathe "unhomed manual" "$axes"
