@@ -5,15 +5,12 @@ import signal
 import subprocess
 import time
 
+from hal_outside import halcmd, pins, until
 from modbus_device import SerialDevice
 
 drive = SerialDevice(3, 0x2200)
 STATUS, SPEED, RUN, DIRECTION, RESET = 0x2100, 0x091A, 0x091B, 0x091C, 0x091E
 drive.holding[STATUS:STATUS + 13] = [1, 2, 300, 0, 15, 3100, 2300, 0, 5, 1, 90, 250, 104]
-
-
-def halcmd(*words):
-    return subprocess.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
 
 
 def get(pin):
@@ -24,19 +21,10 @@ def setp(pin, value):
     halcmd("setp", "d." + pin, str(value))
 
 
-def until(condition, what):
-    end = time.monotonic() + 20
-    while not condition():
-        if time.monotonic() > end:
-            return print("never:", what)
-        time.sleep(0.005)
-    print(what)
-
-
 program = subprocess.Popen(["gs2_vfd", "-d", drive.path, "-n", "d", "-t", "3", "-p", "n", "-r", "5", "-A", "4.5", "-R", "-X"], stdout=subprocess.PIPE, text=True)
 print(program.stdout.readline().strip().replace(drive.path, "PTY"))
 until(lambda: "d" in halcmd("list", "comp").split(), "loaded")
-print(*sorted(" ".join((w[4], w[1], w[2])) for w in (line.split() for line in halcmd("show", "pin", "d.*").splitlines())), sep="\n")
+print(pins("d.*"))
 print({name: get(name) for name in ("error-count", "loop-time", "retval", "tolerance", "nameplate-HZ", "nameplate-RPM", "ack-delay", "spindle-fwd", "enable")})
 setp("loop-time", 0.005)
 print("disabled:", drive.asked)

@@ -8,6 +8,7 @@ import threading
 import time
 import tty
 
+from hal_outside import halcmd, pins, until
 from modbus_device import crc
 
 
@@ -58,10 +59,6 @@ class Huanyang:
 drive = Huanyang()
 
 
-def halcmd(*words):
-    return subprocess.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
-
-
 def get(pin):
     return halcmd("getp", "hy_vfd." + pin)
 
@@ -70,18 +67,9 @@ def setp(pin, value):
     halcmd("setp", "hy_vfd." + pin, str(value))
 
 
-def until(condition, what):
-    end = time.monotonic() + 20
-    while not condition():
-        if time.monotonic() > end:
-            return print("never:", what)
-        time.sleep(0.005)
-    print(what)
-
-
 program = subprocess.Popen(["hy_vfd", "-d", drive.path, "-p", "n", "-f", "100", "-S", "24000", "--register", "PD001=2", "--regdump"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 until(lambda: "hy_vfd" in halcmd("list", "comp").split(), "loaded")
-print(*sorted(" ".join((w[4], w[1], w[2])) for w in (line.split() for line in halcmd("show", "pin", "hy_vfd.*").splitlines())), sep="\n")
+print(pins("hy_vfd.*"))
 print("waits:", drive.asked)
 setp("enable", 1)
 until(lambda: get("hycomm-ok") == "TRUE" and get("Tmp") == "40", "enabled")

@@ -7,14 +7,12 @@ import subprocess
 import time
 from pathlib import Path
 
+from hal_outside import halcmd, pins, until
+
 folder = Path(os.environ["PENDANT"])
 layouts = Path(__file__).resolve().parents[3] / "lib/hallib"
 pipe = os.open(folder / "in", os.O_RDWR)
 environment = dict(os.environ, LD_PRELOAD=str(folder / "usb.so"))
-
-
-def halcmd(*words):
-    return subprocess.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
 
 
 def get(pin):
@@ -23,15 +21,6 @@ def get(pin):
 
 def setp(pin, value):
     halcmd("setp", "xhc-hb04." + pin, str(value))
-
-
-def until(condition, what, seconds=20):
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            return print("never:", what)
-        time.sleep(0.005)
-    print(what)
 
 
 def on(*names):
@@ -80,7 +69,7 @@ print("== without a pendant")
 patient = start("-x", PENDANT="/nowhere")
 program = start("-H", "-s", "2", "-I", str(layouts / "xhc-hb04-layout2.cfg"))
 until(ready, "ready at once")
-print(*sorted(" ".join((w[4], w[1], w[2])) for w in (line.split() for line in halcmd("show", "pin", "xhc-hb04.*").splitlines())), sep="\n")
+print(pins("xhc-hb04.*"))
 print(on("connected", "require_pendant"), get("stepsize"), get("jog.scale"))
 print("== buttons and rotary")
 (folder / "present").touch()

@@ -1,6 +1,6 @@
 #!/bin/bash
 PENDANT=$(mktemp -d)
-export PENDANT
+export PENDANT PYTHONPATH="$TEST_DIR/../../lib:$PYTHONPATH"
 trap 'halrun -U >/dev/null 2>&1; rm -rf "$PENDANT"' EXIT
 cc -shared -fPIC $(pkg-config --cflags libusb-1.0) -o "$PENDANT/usb.so" usb.c || exit
 mkfifo "$PENDANT/in"

@@ -4,30 +4,17 @@ import os
 import signal
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 
+from hal_outside import halcmd, pins, until
 from modbus_device import SerialDevice, TcpDevice
 
 folder = tempfile.TemporaryDirectory()
 os.chdir(folder.name)
 
 
-def halcmd(*words):
-    return subprocess.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
-
-
 def get(pin):
     return halcmd("getp", pin)
-
-
-def until(condition, what):
-    end = time.monotonic() + 20
-    while not condition():
-        if time.monotonic() > end:
-            return print("never:", what)
-        time.sleep(0.01)
-    print(what)
 
 
 def start(text, name="mb2hal"):
@@ -35,12 +22,6 @@ def start(text, name="mb2hal"):
     program = subprocess.Popen(["mb2hal", "config=mb.ini"], stderr=open("told", "a"))
     until(lambda: name in halcmd("list", "comp").split(), "loaded")
     return program
-
-
-def pins(pattern):
-    """Type, direction and name of each."""
-    found = [line.split() for line in halcmd("show", "pin", pattern).splitlines()]
-    return "\n".join(sorted(" ".join((words[4], words[1], words[2])) for words in found))
 
 
 def end(program):

@@ -4,20 +4,8 @@ import signal
 import subprocess
 import time
 
+from hal_outside import halcmd, pins, until
 from modbus_device import SerialDevice
-
-
-def halcmd(*words):
-    return subprocess.run(["halcmd", "-s", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
-
-
-def until(condition, what):
-    end = time.monotonic() + 20
-    while not condition():
-        if time.monotonic() > end:
-            return print("never:", what)
-        time.sleep(0.005)
-    print(what)
 
 
 def work(name, run, frequency, first, more, tells):
@@ -32,7 +20,7 @@ def work(name, run, frequency, first, more, tells):
     program = subprocess.Popen([name, "-d", drive.path, "-p", "n", "-S", "24000", "-F", "400", "-f", "50"], stderr=subprocess.PIPE, text=True)
     until(lambda: name in halcmd("list", "comp").split(), "loaded")
     setp("period-seconds", 0.001)
-    print(*sorted(" ".join((w[4], w[1], w[2])) for w in (line.split() for line in halcmd("show", "pin", f"{name}.*").splitlines())), sep="\n")
+    print(pins(f"{name}.*"))
     until(lambda: drive.holding[run] == 5 and {pin: get(pin) for pin in tells} == tells, f"stands and tells {tells}")
     setp("speed-cmd", 12000)
     setp("spindle-on", 1)
