@@ -137,7 +137,7 @@ int execute_comment(Setup &s, std::string_view text)
         return s.python->run(s, code.c_str(), file);
     } else if (starts(text, "PYRELOAD")) {
         return s.python ? s.python->reload(s) : int(INTERP_OK);
-    } else {
+    } else if (skip + text.size() > 0) {
         enqueue_comment(s, std::string(text).c_str());
     }
     return INTERP_OK;

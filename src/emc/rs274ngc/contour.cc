@@ -19,6 +19,7 @@ namespace
 constexpr double SLACK = 1e-3;     // monotonic within this; shorter elements are dropped
 constexpr double GAP = 0.01;       // wider gaps get an arc
 constexpr double LEVEL_SLACK = 1e-6;
+constexpr const char *PARALLEL = "Cannot intersect parallel lines";
 const Plane I(0, 1);
 
 double dot(Plane a, Plane b) { return a.real() * b.real() + a.imag() * b.imag(); }
@@ -140,12 +141,16 @@ bool Contour::finish_corners()
             a = shifted(before, f);
             b = shifted(after, f);
         }
-        Plane centre;
-        if (a.end.real() - b.start.real() > GAP || !intersect(a, b, &centre)) {
+        if (a.end.real() - b.start.real() > GAP) {
             char text[80];
             const Plane at = image.from(corner.start);
             snprintf(text, sizeof text, "Corner finish failed at (%g,%g)", at.real(), at.imag());
             error = text;
+            return false;
+        }
+        Plane centre;
+        if (!intersect(a, b, &centre)) {
+            error = PARALLEL;
             return false;
         }
         a.end = centre;
@@ -216,7 +221,7 @@ bool Contour::join(size_t k)
     Plane p;
     if (!intersect(a, b, &p)) {
         if (std::abs(a.end - b.start) < SLACK) return true; // averaged at the end
-        error = "Cannot intersect parallel lines";
+        error = PARALLEL;
         return false;
     }
     a.end = b.start = p;
@@ -321,8 +326,8 @@ bool meets_level(const Element &e, double x, Crossing which, Plane *point)
     }
     const double radius = e.radius(), height = x - e.centre.imag();
     const double h2 = radius * radius - height * height;
-    if (h2 < 0) return false;
-    const double h = sqrt(h2);
+    if (fabs(height) > radius + LEVEL_SLACK) return false;
+    const double h = sqrt(std::max(h2, 0.0));
     const Plane right(e.centre.real() + h, x), left(e.centre.real() - h, x);
     // Travel is toward -Re; arcs stay on one side of their centre's height.
     const bool upper = e.kind == Element::CCW;

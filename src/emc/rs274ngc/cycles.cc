@@ -327,13 +327,11 @@ int convert_cycle(Setup &s, int g)
     if (incremental) {
         aa_step = b.has_axis(p.aa) ? b.axis_word(p.aa) : 0;
         bb_step = b.has_axis(p.bb) ? b.axis_word(p.bb) : 0;
-        if (b.present & POLAR_WORDS) TRY(take_polar(s, &aa_step, &bb_step));
         r += level;
         bottom += r;
     } else {
         if (b.has_axis(p.aa)) aa = b.axis_word(p.aa);
         if (b.has_axis(p.bb)) bb = b.axis_word(p.bb);
-        if (b.present & POLAR_WORDS) TRY(take_polar(s, &aa, &bb));
     }
     CHECK(r < bottom && !s.cycles_both_ways, "%s", p.r_below);
     if (!s.cycle_il_flag) {
@@ -350,6 +348,7 @@ int convert_cycle(Setup &s, int g)
     const CANON_MOTION_MODE mode = s.control_mode;
     const double tolerance = s.tolerance, naive = s.naivecam_tolerance;
     if (mode != CANON_EXACT_PATH) set_control_mode(s, CANON_EXACT_PATH, 0);
+    if (b.present & POLAR_WORDS) TRY(take_polar(s, incremental ? &aa_step : &aa, incremental ? &bb_step : &bb));
     TRY(take_words(s, g, first_use));
     c.aa = aa;
     c.bb = bb;

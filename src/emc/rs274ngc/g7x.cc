@@ -220,8 +220,8 @@ struct Roughing {
                 *rises = true;
                 return INTERP_OK;
             }
-            const bool hit = meets_level(e, x, Crossing::LAST, &p);
-            return tool.arc(e, hit && p.real() <= middle ? p : e.end);
+            if (!meets_level(e, x, Crossing::LAST, &p) || p.real() > middle) p = e.end;
+            return std::abs(tool.location - p) > 1e-3 ? tool.arc(e, p) : int(INTERP_OK);
         }
         if (tool.location.real() <= middle + TINY_LEVEL) {
             *rises = true;
@@ -292,8 +292,10 @@ struct Roughing {
             if (!falls) continue;
             if (subcycle == 2) {
                 // Levels hang from the start and from the highest peak so far.
-                while (references.size() > 1 && references.back().imag() < tool.location.imag()) references.pop_back();
-                if (first_of_two) references.push_back(tool.location);
+                bool higher = first_of_two;
+                for (; references.size() > 1 && references.back().imag() < tool.location.imag(); higher = true)
+                    references.pop_back();
+                if (higher) references.push_back(tool.location);
             }
             return rough(k, references.back().imag(), false);
         }

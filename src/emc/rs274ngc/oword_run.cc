@@ -98,12 +98,12 @@ int run_sub(Setup &s)
         stop_skipping(s);
         return INTERP_OK;
     }
-    if (program) { // a program number
-        CHECK(s.skipping.empty() && s.frame().type == CALL_NGC, "Fanuc 'O....' subroutine must be called with 'M98'");
-        return INTERP_OK;
-    }
     if (!s.skipping.empty()) {
         CHECK(!s.defining.empty(), "Nested subroutine definition");
+        return INTERP_OK;
+    }
+    if (program) { // a program number
+        CHECK(s.frame().type == CALL_NGC, "Fanuc 'O....' subroutine must be called with 'M98'");
         return INTERP_OK;
     }
     CHECK(s.call_level > 0, "Nested subroutine definition: 'O%s sub' found inside called subroutine 'O%s'",

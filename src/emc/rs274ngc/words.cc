@@ -197,16 +197,20 @@ int read_word(Setup &s, Block &b, char letter)
     return INTERP_OK;
 }
 
+int skip_digits(Setup &s)
+{
+    CHECK(s.text[s.pos] < '0' || s.text[s.pos] > '9', "Bad format unsigned integer");
+    while (s.text[s.pos] >= '0' && s.text[s.pos] <= '9') ++s.pos;
+    return INTERP_OK;
+}
+
 int read_line_number(Setup &s)
 {
     ++s.pos;
-    CHECK(s.text[s.pos] < '0' || s.text[s.pos] > '9', "Bad format unsigned integer");
-    while (s.text[s.pos] >= '0' && s.text[s.pos] <= '9') ++s.pos;
-    if (s.text[s.pos] == '.' && s.text[s.pos + 1] >= '0' && s.text[s.pos + 1] <= '9') {
-        ++s.pos;
-        while (s.text[s.pos] >= '0' && s.text[s.pos] <= '9') ++s.pos;
-    }
-    return INTERP_OK;
+    TRY(skip_digits(s));
+    if (s.text[s.pos] != '.') return INTERP_OK;
+    ++s.pos;
+    return skip_digits(s);
 }
 
 int bad_character(Setup &s)

@@ -28,6 +28,7 @@ FILES = [
     ("G0 O5", "Bad character 'o' used"),
     ("G0 X1|%", "Bad character '%' used"),
     ("N G0", "Bad format unsigned integer"),
+    ("N1. G0", "Bad format unsigned integer"),
     ("o1 call [1] 2", "Unexpected character after O-word"),
     ("o1 if [1] G0", "Unexpected character after O-word"),
     ("o5 call", "EOF in file:t.ngc seeking o-word: o<5> from line: 1"),
@@ -404,6 +405,7 @@ TOOLS = [
 # Not: "Unknown oword number", "Bug: call stack underrun", "found in illegal location", "Found 'M99' instead of 'O endsub'".
 O_WORDS = [
     ("o1 sub|o2 sub|o2 endsub|o1 endsub", "Nested subroutine definition"),
+    ("o1 sub|o2|o1 endsub", "Nested subroutine definition"),
     ("o<in> call", "Nested subroutine definition: 'O5 sub' found inside called subroutine 'Oin'"),
     ("o1 endsub", "Not in subroutine definition"),
     ("o1 foo", "Unknown control command in o word"),
