@@ -311,8 +311,9 @@ int convert_cycle(Setup &s, int g)
     CHECK(s.feed_rate == 0, "Cannot feed with zero feed rate");
     CHECK(s.feed_mode == INVERSE_TIME, "Cannot use inverse time feed with canned cycles");
     CHECK(s.comp_on(), "Cannot use canned cycles with cutter compensation on");
-    CHECK(!take_sticky(b, 'r', first_use, &s.cycle_r), "R clearance plane unspecified in cycle");
+    CHECK(first_use && !b.has('r'), "R clearance plane unspecified in cycle");
     CHECK(b.has('l') && b['l'] == 0, "Cannot do zero repeats of cycle");
+    s.cycle_r = b.value('r', s.cycle_r);
     s.cycle_l = b.has('l') ? int(b['l']) : 1;
     TRY(check_foreign_axes(s, p));
     CHECK(!(s.axis_mask & (1 << p.cc)), "%s", p.cc_axis);

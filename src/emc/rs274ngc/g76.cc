@@ -82,6 +82,7 @@ int convert_g76(Setup &s)
         CHECK(spindle < 0 || spindle >= s.num_spindles, "Invalid D-number in G76 cycle");
         s.active_spindle = spindle;
     }
+    s.motion_mode = G_76;
     CHECK(s.spindle_turning[s.active_spindle] == CANON_STOPPED, "Chosen spindle (%i) not turning in G76",
           s.active_spindle);
     s.arc_not_allowed = false;
@@ -95,7 +96,6 @@ int convert_g76(Setup &s)
     CHECK(wi == 0, "In G76, I must not be 0");
     CHECK(j <= 0, "In G76, J must be greater than 0");
     CHECK(k <= j, "In G76, K must be greater than J");
-    s.motion_mode = G_76;
 
     Thread t{s, s.current.tran.x, s.current.tran.z, wi < 0 ? -1.0 : 1.0, b['p'], 0, k, 0, 0, false, false, 0, 0, 0};
     t.i = fabs(wi);

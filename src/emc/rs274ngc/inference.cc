@@ -38,9 +38,9 @@ constexpr bool takes_axis_words(int group0)
 
 int check_polar(Setup &s, const Block &b)
 {
+    CHECK(s.plane != CANON_PLANE_XY, "Cannot use polar coordinate except in G17 plane");
     CHECK(b.has('x'), "Cannot specify both polar coordinate and X word");
     CHECK(b.has('y'), "Cannot specify both polar coordinate and Y word");
-    CHECK(s.plane != CANON_PLANE_XY, "Cannot use polar coordinate except in G17 plane");
     CHECK((s.axis_mask & 3) != 3, "Cannot use polar coordinate on a machine lacking X or Y axes");
     return INTERP_OK;
 }

@@ -120,6 +120,7 @@ int read_ini(Setup &s)
     s.center_arc_tolerance_mm =
         arc_tolerance_setting(ini, "CENTER_ARC_RADIUS_TOLERANCE_MM", 0.001, s.center_arc_tolerance_mm);
     s.on_abort_command = ini.findStringV("ON_ABORT_COMMAND", R, "");
+    s.program_start_code = ini.findStringV("PROGRAM_START_CODE", R, "");
     s.program_prefix = expand_path(ini.findStringV("PROGRAM_PREFIX", "DISPLAY", ""));
     s.sub_path = path_list(ini.findStringV("SUBROUTINE_PATH", R, ""));
     s.wizard_root = expand_path(ini.findStringV("WIZARD_ROOT", "WIZARD", ""));
@@ -393,6 +394,7 @@ int Interp::open(const char *filename)
     const int status = look_for_percent_line(s);
     if (status == INTERP_OK) s.canon.ON_RESET();
     else close_files(s);
+    s.at_start = s.main_open;
     return status;
 }
 
@@ -525,6 +527,17 @@ int ngc::read_next_block(Setup &s)
     return read_block(s);
 }
 
+// Every run of a program begins with the modes that the INI file names.
+static int begin_program(Setup &s)
+{
+    s.at_start = false;
+    if (s.program_start_code.empty()) return INTERP_OK;
+    const int status = run_inner(s, s.program_start_code.c_str());
+    if (status == INTERP_OK) return status;
+    const std::string why = status > INTERP_MIN_ERROR ? s.error : "it must not end a program or wait for the machine";
+    return s.fail(__func__, "[RS274NGC]PROGRAM_START_CODE '%s': %s", s.program_start_code.c_str(), why.c_str());
+}
+
 int Interp::read()
 {
     Setup &s = *this->s;
@@ -534,6 +547,7 @@ int Interp::read()
     }
     int status = INTERP_OK;
     if (__builtin_expect(s.probe_flag || s.toolchange_flag || s.input_flag, 0)) status = take_results(s);
+    if (__builtin_expect(s.at_start, 0) && status == INTERP_OK) status = begin_program(s);
     if (status == INTERP_OK && !handler_waits(s)) status = read_next_block(s);
     if (__builtin_expect(status > INTERP_MIN_ERROR, 0)) {
         s.trace(__func__);

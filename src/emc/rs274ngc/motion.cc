@@ -114,13 +114,13 @@ int convert_spindle_synched(Setup &s, int g)
         CHECK(spindle < 0 || spindle >= s.num_spindles, "Invalid spindle ($) number in %s move", name);
         s.active_spindle = spindle;
     }
+    s.motion_mode = g;
     CHECK(s.spindle_turning[s.active_spindle] == CANON_STOPPED, "Spindle not turning in %s", name);
     s.arc_not_allowed = false;
     EmcPose end;
     TRY(find_ends(s, b, &end));
     int indexer;
     TRY(check_indexers(s, end, g, &indexer));
-    s.motion_mode = g;
     s.canon.START_SPEED_FEED_SYNCH(s.active_spindle, b['k'], false);
     if (g == G_33) {
         if (s.comp_on() && s.comp_radius > 0) {

@@ -242,6 +242,37 @@ void a_snapshot_runs_as_it_was_opened() // FP-130
     unlink("snap.ngc");
 }
 
+void programs_start_as_the_ini_file_says() // FP-104
+{
+    write_file("start.ngc", "(debug,%d#<_metric> #<_absolute> #<_plane>)\nG20 G91 G19\nG17\nM2\n");
+    int n = 0;
+    for (const char *code : {"G21 G90 G94", "", "G21 G999", "G38.2 X5 F1", "M2"}) {
+        const std::string ini = "start" + std::to_string(n++) + ".ini";
+        write_file(ini.c_str(), std::string("[RS274NGC]\nPROGRAM_START_CODE = ") + code + "\n");
+        TestCanon canon;
+        Interp interp(canon);
+        InterpOptions o;
+        o.ini_file = ini;
+        EXPECT(interp.init(o) == INTERP_OK);
+        for (int run = 0; run < 3; ++run) {
+            EXPECT(interp.open("start.ngc") == INTERP_OK);
+            if (run == 2) EXPECT(interp.execute("G20 G91") == INTERP_OK); // by hand, between open and start
+            canon.calls.clear();
+            const int end = run_to_end(interp);
+            interp.close();
+            if (n > 2) {
+                EXPECT(end == INTERP_ERROR && strstr(interp.error_text(end), "[RS274NGC]PROGRAM_START_CODE '"));
+                break;
+            }
+            EXPECT(end == INTERP_EXIT);
+            EXPECT((canon.calls.front() == "message 1 1 170") == (n == 1 || run == 0));
+        }
+        interp.exit();
+        unlink(ini.c_str());
+    }
+    unlink("start.ngc");
+}
+
 void outputs_keep_their_place() // FP-110
 {
     Machine m;
@@ -438,6 +469,7 @@ int main()
         {"faults name line, column and remedy", faults_name_line_column_and_remedy},
         {"errors leave no trace", errors_leave_no_trace},
         {"FP-130 a snapshot runs as it was opened", a_snapshot_runs_as_it_was_opened},
+        {"FP-104 programs start as the INI file says", programs_start_as_the_ini_file_says},
         {"FP-110 outputs keep their place", outputs_keep_their_place},
         {"a printed block reads as the same block", a_printed_block_reads_as_the_same_block},
         {"motion lines allocate nothing", motion_lines_allocate_nothing},

@@ -279,6 +279,7 @@ struct Setup {
     bool cycles_both_ways = false; // R below the bottom drills upward
     bool disable_fanuc_subs = false, disable_g92_persistence = false, disable_auto_g54 = false;
     std::string on_abort_command;
+    std::string program_start_code; // executed before the first line of every program
     std::string program_prefix;
     std::vector<std::string> sub_path;
     std::string wizard_root;
@@ -318,6 +319,7 @@ struct Setup {
     int source = -1; // being read; -1: MDI only
     std::string main_file;
     bool main_open = false;
+    bool at_start = false; // opened, nothing read yet
     int call_level = 0;
     ngc::Frame frames[ngc::MAX_CALL_LEVELS];
     ngc::NameTable<ngc::Label> labels;

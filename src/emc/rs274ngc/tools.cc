@@ -272,8 +272,7 @@ int convert_tool_data(Setup &s)
         t.orientation = int(whole);
     }
     s.canon.SET_TOOL_TABLE_ENTRY(idx, toolno, t.offset, t.diameter, t.frontangle, t.backangle, t.orientation);
-    const bool in_spindle = idx == s.current_pocket || s.tools[0].toolno == toolno;
-    if (idx != 0 && in_spindle && !s.random_toolchanger) {
+    if (idx != 0 && idx == s.current_pocket && !s.random_toolchanger) {
         CANON_TOOL_TABLE &loaded = s.tools[0];
         const int pocket = loaded.pocketno;
         loaded = t;
