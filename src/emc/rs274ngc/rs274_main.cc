@@ -319,7 +319,7 @@ bool read_options(int argc, char **argv, Options &o, bool *tool_given)
         usage(argv[0]);
         return false;
     }
-    o.argc = names + 1;
+    o.argc = argc;
     if (names >= 1) {
         o.input = argv[optind];
         o.have_input = true;
