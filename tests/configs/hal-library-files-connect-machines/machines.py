@@ -3,28 +3,9 @@
 import sys
 from pathlib import Path
 
-AXIS = """
-[AXIS_{letter}]
-MIN_LIMIT = -10
-MAX_LIMIT = 10
-MAX_VELOCITY = 5
-MAX_ACCELERATION = 50
-"""
-JOINT = """
-[JOINT_{n}]
-TYPE = LINEAR
-MIN_LIMIT = -10.001
-MAX_LIMIT = 10.001
-MAX_VELOCITY = 5
-MAX_ACCELERATION = 50
-FERROR = 0.5
-MIN_FERROR = 0.1
-HOME = 0
-HOME_OFFSET = {offset}
-HOME_SEARCH_VEL = {search}
-HOME_LATCH_VEL = {latch}
-HOME_SEQUENCE = {sequence}
-"""
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "lib"))
+from machine import machine  # noqa: E402
+
 SERVO = """INPUT_SCALE = 4000
 DRIVE_RATIO = 1
 MOTOR_PPR = 1000
@@ -43,53 +24,6 @@ MAX_HARD_LIMIT_RELEASE = 12
 HOME_SW_MIN = 0.5
 HOME_SW_MAX = 0.7
 """
-
-
-def machine(name, hal, letters="XYZ", kins=None, extra="", joint_extra="", home=(0, 0, 0), base=0, spindles=1, motmod="",
-            sequences=None):
-    """One folder with NAME.ini; hal: lines of [HAL]; home: offset, search and latch velocity of every joint, or of each."""
-    folder = Path(name)
-    folder.mkdir()
-    homes = home if isinstance(home[0], tuple) else (home,) * len(letters)
-    joints = "".join(JOINT.format(n=n, offset=offset, search=search, latch=latch,
-                                  sequence=sequences[n] if sequences else 0 if search == 0 else 1 + n) + joint_extra
-                     for n, (offset, search, latch) in enumerate(homes))
-    axes = "".join(AXIS.format(letter=letter) for letter in dict.fromkeys(letters))
-    (folder / f"{name}.ini").write_text(f"""[EMC]
-VERSION = 1.1
-MACHINE = {name}
-[DISPLAY]
-DISPLAY = axis
-[TASK]
-TASK = milltask
-CYCLE_TIME = 0.001
-[RS274NGC]
-PARAMETER_FILE = sim.var
-[EMCMOT]
-EMCMOT = motmod{motmod}
-SERVO_PERIOD = 1000000
-BASE_PERIOD = {base}
-[EMCIO]
-TOOL_TABLE = tool.tbl
-[HAL]
-HALUI = halui
-{hal}
-[TRAJ]
-COORDINATES = {letters}
-SPINDLES = {spindles}
-LINEAR_UNITS = inch
-ANGULAR_UNITS = degree
-MAX_LINEAR_VELOCITY = 5
-DEFAULT_LINEAR_VELOCITY = 1
-[KINS]
-KINEMATICS = {kins or 'trivkins coordinates=' + letters.lower()}
-JOINTS = {len(letters)}
-{extra}
-{axes}
-{joints}
-""")
-    (folder / "tool.tbl").write_text("T1 P1 D0.125 Z0.5 ;mill\n")
-
 
 SIM = "HALFILE = LIB:basic_sim.tcl\n"
 machine("plain", SIM)
