@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "canon.hh"
+#include "emc/canon/hal_number.hh"
 
 class PreviewCanon : public Canon
 {
@@ -52,6 +53,7 @@ class PreviewCanon : public Canon
     void MESSAGE(const char *text) override { on_message(text); }
     bool USER_DEFINED_FUNCTION_EXISTS(int) override { return true; }
     void USER_DEFINED_FUNCTION(int num, double p, double q) override { on_user_m(last_line(), num, p, q); }
+    bool hal_value(const char *name, double *value) override { return hal_number(name, value); }
     bool GET_OPTIONAL_PROGRAM_STOP() override { return false; }
 
     double GET_EXTERNAL_FEED_RATE() override { return feed_rate; }

@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "emc_args.hh"
+#include "emc/canon/hal_number.hh"
 #include "kerf_clock.h"
 #include "kerf_paths.h"
 #include "nml_config.hh"
@@ -30,25 +31,6 @@ constexpr size_t MESSAGES_MOST = 1000; // to the operator, while nobody reads th
 constexpr int64_t MOTION_PATIENCE_NS = 60'000'000'000; // wall time
 constexpr int64_t MS = 1'000'000;
 constexpr int STARTUP_STEPS = 1000; // of the startup code: messages, and ms of waiting
-
-// A pin, else a signal, else a parameter of that name as a number.
-bool hal_number(const char *name, double *value) {
-    hal_type_t type;
-    hal_data_u *data = nullptr;
-    bool connected;
-    if (hal_get_pin_value_by_name(name, &type, &data, &connected) != 0 && hal_get_signal_value_by_name(name, &type, &data, &connected) != 0 &&
-        hal_get_param_value_by_name(name, &type, &data) != 0)
-        return false;
-    switch (type) {
-    case HAL_BIT: *value = data->b ? 1 : 0; return true;
-    case HAL_FLOAT: *value = data->f; return true;
-    case HAL_S32: *value = data->s; return true;
-    case HAL_U32: *value = data->u; return true;
-    case HAL_S64: *value = static_cast<double>(data->ls); return true;
-    case HAL_U64: *value = static_cast<double>(data->lu); return true;
-    default: return false;
-    }
-}
 
 int64_t wall_ns() {
     timespec t;

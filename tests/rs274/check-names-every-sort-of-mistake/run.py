@@ -64,6 +64,7 @@ cases = {
     # units
     "G21 F100\nG1 X1\nG20\nG1 X1\nG21\nM2\n": [("w", 3, "the program uses both G20 and G21")],
     "G20\nG21 F100\nG1 X1\nM2\n": [],
+    H + "G1 X#<_hal[a.pin]>\nM2\n": [],  # a pin of the machine, which is not there yet
     "G1 X1 F100\nM2\n": [("w", 1, "a feed move before any G20 or G21")],
     # limits, with offsets, rotation, arcs
     H + "G0 X51\nG0 X50\nG10 L2 P1 X10\nG0 X41\nG0 Z-21\nM2\n": [
