@@ -32,17 +32,12 @@ __attribute__((visibility("default"))) int rtapi_info_size_texts = 3;
 
 static void parameter(char *word)
 {
-    static void *self;
-    if (!self) {
-        self = dlopen(NULL, RTLD_NOW);
+    static struct module self;
+    if (!self.handle) {
+        self.handle = dlopen(NULL, RTLD_NOW);
     }
-    set_parameter(self, word);
-    free(text);
-    text = NULL;
-    for (int i = 0; i < 3; i++) {
-        free(texts[i]);
-        texts[i] = NULL;
-    }
+    set_parameter(&self, word);
+    free_texts(&self);
 }
 
 static void request(const unsigned char *data, unsigned long size)

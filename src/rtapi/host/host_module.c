@@ -163,6 +163,15 @@ static void module_path(char *path, size_t size, const char *name)
     snprintf(path, size, "%s/%s.so", kerf_path(KERF_PATH_RTLIB), name);
 }
 
+static void free_texts(struct module *m)
+{
+    while (m->texts) {
+        struct text *text = m->texts;
+        m->texts = text->next;
+        free(text);
+    }
+}
+
 /* Gives module and parameters back. Code that others still use stays, and its strings with it. */
 static void drop(struct module *m)
 {
@@ -174,11 +183,8 @@ static void drop(struct module *m)
     void *stays = m->texts ? dlopen(path, RTLD_LAZY | RTLD_NOLOAD) : NULL;
     if (stays) {
         dlclose(stays);
-    }
-    while (m->texts && !stays) {
-        struct text *text = m->texts;
-        m->texts = text->next;
-        free(text);
+    } else {
+        free_texts(m);
     }
     free(m);
 }
