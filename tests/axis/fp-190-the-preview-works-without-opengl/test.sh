@@ -17,9 +17,5 @@ for why in off crashing hanging; do
     grep -i -A8 traceback screen.err
 done
 echo "== no GLX"
-coproc server { exec Xvfb -displayfd 1 -screen 0 800x600x24 -extension GLX -nolisten tcp 2>/dev/null; }
-pid=$server_PID
-read -r number <&"${server[0]}"
-DISPLAY=:$number /usr/bin/python3 -c 'from kerf import gl; print(gl.Probe().result())'
-kill "$pid"; wait "$pid" 2>/dev/null
+XVFB_OPTIONS="-extension GLX" ../../lib/with-display 800x600 /usr/bin/python3 -c 'from kerf import gl; print(gl.Probe().result())'
 rm -rf machine home part.ngc screen.log screen.err
