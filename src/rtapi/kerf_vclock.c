@@ -598,6 +598,25 @@ static void segment_init(int key, double pace)
  * kernel keeps it (as SHM_DEST) until the last process has detached or died. Until then
  * its id stays valid, and the kernel's own table says which there are. */
 
+/* A process that is killed between making a segment and marking it leaves it empty, without key
+ * and without a process that could know it. */
+static void remove_unfinished(int id, const struct shmid_ds *info)
+{
+    static const struct vclock empty;
+    if (info->shm_perm.__key != IPC_PRIVATE || info->shm_perm.uid != geteuid() || info->shm_nattch != 0 ||
+        kill(info->shm_cpid, 0) == 0 || errno != ESRCH) {
+        return;
+    }
+    void *at = shmat(id, NULL, SHM_RDONLY);
+    if (at == (void *)-1) {
+        return;
+    }
+    if (memcmp(at, &empty, sizeof empty) == 0) {
+        shmctl(id, IPC_RMID, NULL);
+    }
+    shmdt(at);
+}
+
 /* Attaches the living segment of this instance. NULL: there is none. Instance lock held. */
 static struct vclock *segment_find(int key)
 {
@@ -606,7 +625,11 @@ static struct vclock *segment_find(int key)
     for (int i = 0; i <= last; i++) {
         struct shmid_ds info;
         int id = shmctl(i, SHM_STAT, &info);
-        if (id < 0 || !(info.shm_perm.mode & SHM_DEST) || info.shm_segsz != sizeof *clk) {
+        if (id < 0 || info.shm_segsz != sizeof *clk) {
+            continue;
+        }
+        if (!(info.shm_perm.mode & SHM_DEST)) {
+            remove_unfinished(id, &info);
             continue;
         }
         struct vclock *at = shmat(id, NULL, 0);
