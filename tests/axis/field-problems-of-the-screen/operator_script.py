@@ -68,6 +68,19 @@ def jogging(op):
     print("stalled screen: rests", before == op.stat.actual_position)
     op.wait(0.1)
     op.let_go("Left")
+    print("FP-064: moves", jog(), end=" ")
+    speeds, commands = set(), op.stat.echo_serial_number
+    for _ in range(30):                          # the desktop repeats a held key as release and press
+        root.event_generate("<KeyRelease-Left>")
+        root.event_generate("<KeyPress-Left>")
+        op.wait(0.03)
+        speeds.add(round(op.stat.joint[0]["velocity"], 6))
+    print("one speed while the key repeats:", len(speeds) == 1 and speeds != {0.0},
+          "commands:", op.stat.echo_serial_number - commands, end=" ")
+    speed, start = abs(speeds.pop()), op.stat.actual_position[0]
+    op.let_go("Left")
+    stopping = speed * speed / 2 / 1000 + speed * 0.03      # by acceleration, and until the command is there
+    print("let go: rests", at_rest(op), "within its stopping distance:", abs(op.stat.actual_position[0] - start) <= stopping)
 
 
 def programs(op, here):
