@@ -15,9 +15,10 @@
 #include <string>
 #include <thread>
 
-#include "option_values.hh"
 #include "hal.h"
 #include "hardware_program.hh"
+#include "option_values.hh"
+#include "serial_line.hh"
 
 namespace gs2 {
 
@@ -30,11 +31,10 @@ constexpr int ACCEL = 0x0101, STOP_METHOD = 0x0100, DECEL = 0x0102, STALL_PREVEN
 constexpr double COAST_DECEL_S = 20.0;
 
 struct Options {
-    std::string name = "gs2_vfd", device = "/dev/ttyS0";
-    int bits = 8, stop = 1, target = 1, rate = 38400;
-    char parity = 'O';
+    std::string name = "gs2_vfd";
+    vfd::SerialLine line = {"/dev/ttyS0", 38400, 8, 1, 'O', 1, false};
     double accel_s = 10, decel_s = 0;
-    bool verbose = false, debug = false, resistor = false, disabled = false;
+    bool verbose = false, resistor = false, disabled = false;
 };
 
 struct Pins {
@@ -49,7 +49,7 @@ struct Pins {
 
 class Drive {
 public:
-    explicit Drive(const Options &options) : options_(options) {}
+    explicit Drive(const Options &options) : options_(options), pins_(options.name) {}
     ~Drive() {
         if (link_) modbus_close(link_);
         modbus_free(link_);
@@ -57,28 +57,28 @@ public:
 
     int run() {
         if (!open() || !make_pins()) return -1;
-        hal_ready(component_);
+        pins_.ready();
         while (!ending) {
             step();
             double loop_s = pins_->loop_time;
             std::this_thread::sleep_for(std::chrono::duration<double>(loop_s > 0.001 ? std::min(loop_s, 2.0) : 0.001));
         }
         for (int tries = 0; *pins_->initialized && tries < 5 && !write(RUN, 0); tries++) {} // nothing turns on after the program
-        hal_exit(component_);
+        pins_.exit();
         return 0;
     }
 
 private:
     bool open() {
-        link_ = modbus_new_rtu(options_.device.c_str(), options_.rate, options_.parity, options_.bits, options_.stop);
+        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity, options_.line.bits, options_.line.stop);
         if (!link_) {
-            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.device.c_str(), modbus_strerror(errno));
+            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(), modbus_strerror(errno));
             return false;
         }
-        modbus_set_debug(link_, options_.debug);
-        modbus_set_slave(link_, options_.target);
+        modbus_set_debug(link_, options_.line.debug);
+        modbus_set_slave(link_, options_.line.target);
         if (modbus_connect(link_) != 0) {
-            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.device.c_str(), modbus_strerror(errno));
+            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(), modbus_strerror(errno));
             return false;
         }
         return true;
@@ -172,17 +172,8 @@ private:
         if (value != known) known = write(address, value) ? value : -1;
     }
 
-    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F make) { return make(dir, &at, component_, "%s.%s", options_.name.c_str(), name) == 0; }
-    template <class T, class F> bool parameter(T &at, const char *name, F make) { return make(HAL_RW, &at, component_, "%s.%s", options_.name.c_str(), name) == 0; }
-
     bool make_pins() {
-        component_ = hal_init(options_.name.c_str());
-        if (component_ < 0) return false;
-        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
-        if (!pins_ || !make_all()) {
-            hal_exit(component_);
-            return false;
-        }
+        if (!pins_.make([this](Pins &p) { return make_all(p); })) return false;
         Pins &p = *pins_;
         p.loop_time = 0.1;
         p.tolerance = 0.01;
@@ -194,32 +185,32 @@ private:
         return true;
     }
 
-    bool make_all() {
-        Pins &p = *pins_;
+    bool make_all(Pins &p) {
         struct { hal_float_t **at; const char *name; } floats[] = {
             {&p.frequency_command, "frequency-command"}, {&p.frequency_out, "frequency-out"}, {&p.current, "output-current"}, {&p.dc_volts, "DC-bus-volts"},
             {&p.out_volts, "output-voltage"}, {&p.rpm, "motor-RPM"}, {&p.scale_frequency, "scale-frequency"}, {&p.power_factor, "power-factor"}, {&p.load, "load-percentage"}};
         for (auto &f : floats)
-            if (!pin(*f.at, HAL_OUT, f.name, hal_pin_float_newf)) return false;
+            if (!pins_.pin(*f.at, HAL_OUT, f.name, hal_pin_float_newf)) return false;
         struct { hal_bit_t **at; hal_pin_dir_t dir; const char *name; } bits[] = {
             {&p.at_speed, HAL_OUT, "at-speed"}, {&p.is_stopped, HAL_OUT, "is-stopped"}, {&p.initialized, HAL_OUT, "initialized"}, {&p.on, HAL_IN, "spindle-on"},
             {&p.fwd, HAL_IN, "spindle-fwd"}, {&p.rev, HAL_IN, "spindle-rev"}, {&p.err_reset, HAL_IN, "err-reset"}, {&p.enable, HAL_IN, "enable"}};
         for (auto &b : bits)
-            if (!pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
-        return pin(p.status_1, HAL_OUT, "status-1", hal_pin_s32_newf) && pin(p.status_2, HAL_OUT, "status-2", hal_pin_s32_newf) &&
-               pin(p.firmware, HAL_OUT, "firmware-revision", hal_pin_s32_newf) && pin(p.speed_command, HAL_IN, "speed-command", hal_pin_float_newf) &&
-               parameter(p.error_count, "error-count", hal_param_s32_newf) && parameter(p.retval, "retval", hal_param_s32_newf) &&
-               parameter(p.ack_delay, "ack-delay", hal_param_s32_newf) && parameter(p.loop_time, "loop-time", hal_param_float_newf) &&
-               parameter(p.tolerance, "tolerance", hal_param_float_newf) && parameter(p.nameplate_hz, "nameplate-HZ", hal_param_float_newf) &&
-               parameter(p.nameplate_rpm, "nameplate-RPM", hal_param_float_newf);
+            if (!pins_.pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
+        return pins_.pin(p.status_1, HAL_OUT, "status-1", hal_pin_s32_newf) && pins_.pin(p.status_2, HAL_OUT, "status-2", hal_pin_s32_newf) &&
+               pins_.pin(p.firmware, HAL_OUT, "firmware-revision", hal_pin_s32_newf) && pins_.pin(p.speed_command, HAL_IN, "speed-command", hal_pin_float_newf) &&
+               pins_.parameter(p.error_count, "error-count", hal_param_s32_newf) && pins_.parameter(p.retval, "retval", hal_param_s32_newf) &&
+               pins_.parameter(p.ack_delay, "ack-delay", hal_param_s32_newf) && pins_.parameter(p.loop_time, "loop-time", hal_param_float_newf) &&
+               pins_.parameter(p.tolerance, "tolerance", hal_param_float_newf) && pins_.parameter(p.nameplate_hz, "nameplate-HZ", hal_param_float_newf) &&
+               pins_.parameter(p.nameplate_rpm, "nameplate-RPM", hal_param_float_newf);
     }
 
     const Options &options_;
     modbus_t *link_ = nullptr;
-    int component_ = -1, run_ = -1, direction_ = -1, reset_ = -1, since_start_ = 0;
-    Pins *pins_ = nullptr;
+    int run_ = -1, direction_ = -1, reset_ = -1, since_start_ = 0;
+    vfd::PinnedComponent<Pins> pins_;
 };
 
+constexpr auto RATES = {"110", "300", "600", "1200", "2400", "4800", "9600", "19200", "38400", "57600", "115200"};
 constexpr option LONG[] = {
     {"bits", 1, nullptr, 'b'}, {"device", 1, nullptr, 'd'}, {"verbose", 0, nullptr, 'v'}, {"debug", 0, nullptr, 'g'}, {"name", 1, nullptr, 'n'}, {"parity", 1, nullptr, 'p'},
     {"rate", 1, nullptr, 'r'}, {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"accel-seconds", 1, nullptr, 'A'}, {"decel-seconds", 1, nullptr, 'D'},
@@ -236,22 +227,13 @@ void usage() {
 bool parse(int argc, char **argv, Options &o, int &status) {
     status = -1;
     for (int c; (c = getopt_long(argc, argv, "b:d:vgn:p:r:s:t:A:D:RXh", LONG, nullptr)) != -1;) {
-        const char *chosen = optarg;
-        double value = 0;
+        auto taken = vfd::line_option("gs2_vfd", c, optarg, RATES, o.line);
+        if (taken && !*taken) return false;
+        if (taken) continue;
         switch (c) {
-        case 'b': if (!(chosen = one_of("gs2_vfd", "bits", optarg, {"5", "6", "7", "8"}))) return false; o.bits = atoi(chosen); break;
-        case 'd': o.device = optarg; break;
         case 'v': o.verbose = true; break;
-        case 'g': o.debug = true; break;
+        case 'g': o.line.debug = true; break;
         case 'n': if (!name_of("gs2_vfd", optarg, o.name)) return false; break;
-        case 'p': if (!(chosen = one_of("gs2_vfd", "parity", optarg, {"even", "odd", "none"}))) return false; o.parity = static_cast<char>(toupper(*chosen)); break;
-        case 'r':
-            chosen = one_of("gs2_vfd", "rate", optarg, {"110", "300", "600", "1200", "2400", "4800", "9600", "19200", "38400", "57600", "115200"});
-            if (!chosen) return false;
-            o.rate = atoi(chosen);
-            break;
-        case 's': if (!(chosen = one_of("gs2_vfd", "stopbits", optarg, {"1", "2"}))) return false; o.stop = atoi(chosen); break;
-        case 't': if (!number_of("gs2_vfd", "target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
         case 'A': if (!number_of("gs2_vfd", "accel-seconds", optarg, 0, 6553, o.accel_s)) return false; break;
         case 'D': if (!number_of("gs2_vfd", "decel-seconds", optarg, 0, 6553, o.decel_s)) return false; break;
         case 'R': o.resistor = true; break;
@@ -269,8 +251,8 @@ int run_program(int argc, char **argv) {
     Options options;
     int status;
     if (!parse(argc, argv, options, status)) return status;
-    printf("%s: device='%s', baud=%d, parity='%c', bits=%d, stopbits=%d, address=%d, enabled=%d\n", options.name.c_str(), options.device.c_str(), options.rate, options.parity,
-           options.bits, options.stop, options.target, !options.disabled);
+    printf("%s: device='%s', baud=%d, parity='%c', bits=%d, stopbits=%d, address=%d, enabled=%d\n", options.name.c_str(), options.line.device.c_str(), options.line.rate, options.line.parity,
+           options.line.bits, options.line.stop, options.line.target, !options.disabled);
     fflush(stdout);
     begin_hardware_program(options.name.c_str());
     return Drive(options).run();

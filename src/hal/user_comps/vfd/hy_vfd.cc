@@ -11,10 +11,11 @@
 #include <thread>
 #include <vector>
 
-#include "option_values.hh"
 #include "hal.h"
 #include "hardware_program.hh"
 #include "hycomm.hh"
+#include "option_values.hh"
+#include "serial_line.hh"
 
 namespace hy {
 
@@ -32,7 +33,7 @@ void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration
 
 struct Options {
     std::string name = "hy_vfd";
-    Line line;
+    vfd::SerialLine line;
     double max_hz = 0, min_hz = 0, base_hz = 0, volts = 0, amperes = 0, rpm = 0; ///< 0: as the drive has it
     int poles = 0;
     std::vector<std::pair<int, int>> registers;
@@ -58,11 +59,11 @@ constexpr int BIT_MASKS[8] = {0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80};
 
 class Drive {
 public:
-    explicit Drive(const Options &options) : options_(options), drive_(options.name, options.line) {}
+    explicit Drive(const Options &options) : options_(options), drive_(options.name, options.line), pins_(options.name) {}
 
     int run() {
         if (!drive_.open() || !make_pins()) return -1;
-        hal_ready(component_);
+        pins_.ready();
         while (!ending) {
             if (!*pins_->enable) {
                 if (!stopped_) stopped_ = write_control(STOP); // it did not hear of it: again
@@ -82,7 +83,7 @@ public:
             }
             rest();
         }
-        hal_exit(component_);
+        pins_.exit();
         return 0;
     }
 
@@ -188,43 +189,34 @@ private:
         *pins_->fb_rps = 0;
     }
 
-    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F make) { return make(dir, &at, component_, "%s.%s", options_.name.c_str(), name) == 0; }
-
     bool make_pins() {
-        component_ = hal_init(options_.name.c_str());
-        if (component_ < 0) return false;
-        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
-        if (!pins_ || !make_all()) {
-            hal_exit(component_);
-            return false;
-        }
+        if (!pins_.make([this](Pins &p) { return make_all(p); })) return false;
         *pins_->tolerance = 0.02;
         return true;
     }
 
-    bool make_all() {
-        Pins &p = *pins_;
+    bool make_all(Pins &p) {
         for (int n = 0; n < STATUSES; n++)
-            if (!pin(p.status[n], HAL_OUT, STATUS_NAMES[n], hal_pin_float_newf) || !pin(p.bits[n], HAL_OUT, BIT_NAMES[n], hal_pin_bit_newf)) return false;
+            if (!pins_.pin(p.status[n], HAL_OUT, STATUS_NAMES[n], hal_pin_float_newf) || !pins_.pin(p.bits[n], HAL_OUT, BIT_NAMES[n], hal_pin_bit_newf)) return false;
         struct { hal_float_t **at; hal_pin_dir_t dir; const char *name; } floats[] = {
             {&p.control, HAL_OUT, "CNTR"}, {&p.answer, HAL_OUT, "CNST"}, {&p.speed_command, HAL_IN, "speed-command"}, {&p.frequency_command, HAL_OUT, "frequency-command"},
             {&p.max_freq, HAL_OUT, "max-freq"}, {&p.base_freq, HAL_OUT, "base-freq"}, {&p.lower_limit, HAL_OUT, "freq-lower-limit"},
             {&p.volts, HAL_OUT, "rated-motor-voltage"}, {&p.amperes, HAL_OUT, "rated-motor-current"}, {&p.rated_rev, HAL_OUT, "rated-motor-rev"},
             {&p.fb, HAL_OUT, "spindle-speed-fb"}, {&p.fb_rps, HAL_OUT, "spindle-speed-fb-rps"}, {&p.tolerance, HAL_IN, "spindle-at-speed-tolerance"}};
         for (auto &f : floats)
-            if (!pin(*f.at, f.dir, f.name, hal_pin_float_newf)) return false;
+            if (!pins_.pin(*f.at, f.dir, f.name, hal_pin_float_newf)) return false;
         struct { hal_bit_t **at; hal_pin_dir_t dir; const char *name; } bits[] = {
             {&p.enable, HAL_IN, "enable"}, {&p.forward, HAL_IN, "spindle-forward"}, {&p.reverse, HAL_IN, "spindle-reverse"}, {&p.on, HAL_IN, "spindle-on"},
             {&p.ok, HAL_OUT, "hycomm-ok"}, {&p.at_speed, HAL_OUT, "spindle-at-speed"}};
         for (auto &b : bits)
-            if (!pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
-        return pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) && pin(p.retval, HAL_OUT, "retval", hal_pin_u32_newf) && pin(p.error_count, HAL_OUT, "error-count", hal_pin_s32_newf);
+            if (!pins_.pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
+        return pins_.pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) && pins_.pin(p.retval, HAL_OUT, "retval", hal_pin_u32_newf) && pins_.pin(p.error_count, HAL_OUT, "error-count", hal_pin_s32_newf);
     }
 
     const Options &options_;
     Hycomm drive_;
-    Pins *pins_ = nullptr;
-    int component_ = -1, good_ = 0, frequency_ = -1;
+    vfd::PinnedComponent<Pins> pins_;
+    int good_ = 0, frequency_ = -1;
     bool told_ = false, stopped_ = true;
 };
 
@@ -261,17 +253,13 @@ bool a_register(const char *text, Options &o) {
 bool parse(int argc, char **argv, Options &o, int &status) {
     status = -1;
     for (int c; (c = getopt_long(argc, argv, "b:d:gn:p:r:s:t:F:f:B:V:I:S:P:h", LONG, nullptr)) != -1;) {
-        const char *chosen = nullptr;
+        auto taken = vfd::line_option("hy_vfd", c, optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}, o.line);
+        if (taken && !*taken) return false;
+        if (taken) continue;
         double value = 0;
         switch (c) {
-        case 'b': if (!(chosen = one_of("hy_vfd", "bits", optarg, {"5", "6", "7", "8"}))) return false; o.line.bits = atoi(chosen); break;
-        case 'd': o.line.device = optarg; break;
         case 'g': o.line.debug = true; break;
         case 'n': if (!name_of("hy_vfd", optarg, o.name)) return false; break;
-        case 'p': if (!(chosen = one_of("hy_vfd", "parity", optarg, {"even", "odd", "none"}))) return false; o.line.parity = static_cast<char>(*chosen - 'a' + 'A'); break;
-        case 'r': if (!(chosen = one_of("hy_vfd", "rate", optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}))) return false; o.line.rate = atoi(chosen); break;
-        case 's': if (!(chosen = one_of("hy_vfd", "stopbits", optarg, {"1", "2"}))) return false; o.line.stop = atoi(chosen); break;
-        case 't': if (!number_of("hy_vfd", "target", optarg, 1, 254, value)) return false; o.line.target = static_cast<int>(value); break;
         case 'F': if (!number_of("hy_vfd", "max-frequency", optarg, 0, 650, o.max_hz)) return false; break;
         case 'f': if (!number_of("hy_vfd", "min-frequency", optarg, 0, 650, o.min_hz)) return false; break;
         case 'B': if (!number_of("hy_vfd", "base-frequency", optarg, 0, 400, o.base_hz)) return false; break;

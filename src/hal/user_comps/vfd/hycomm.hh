@@ -7,21 +7,15 @@
 #include <optional>
 #include <string>
 
+#include "serial_line.hh"
+
 namespace hy {
 
 enum class Function : uint8_t { read_parameter = 1, write_parameter = 2, control = 3, read_status = 4, write_frequency = 5 };
 
-struct Line {
-    std::string device = "/dev/ttyS0";
-    int rate = 19200, bits = 8, stop = 1;
-    char parity = 'E';
-    int target = 1;
-    bool debug = false; ///< prints the frames
-};
-
 class Hycomm {
 public:
-    Hycomm(std::string program, const Line &line) : program_(std::move(program)), line_(line) {}
+    Hycomm(std::string program, const vfd::SerialLine &line) : program_(std::move(program)), line_(line) {}
     ~Hycomm();
 
     /// False, with a message on stderr.
@@ -41,7 +35,7 @@ private:
     void show(const char *direction, const uint8_t *data, int size) const;
 
     std::string program_, told_;
-    Line line_;
+    vfd::SerialLine line_;
     int port_ = -1;
 };
 

@@ -14,9 +14,10 @@
 #include <string>
 #include <thread>
 
-#include "option_values.hh"
 #include "hal.h"
 #include "hardware_program.hh"
+#include "option_values.hh"
+#include "serial_line.hh"
 
 namespace percent {
 
@@ -46,11 +47,8 @@ constexpr Kind KINDS[] = {
       {"input-terminal", 0x1009, 1}, {"AI1", 0x100a, 0.001}, {"AI2", 0x100b, 0.001}, {}, {}, {}}}};
 
 struct Options {
-    std::string device = "/dev/ttyS0";
-    int rate = 0, bits = 8, stop = 0, target = 1;
-    char parity = 'N';
+    vfd::SerialLine line = {"/dev/ttyS0", 0, 8, 0, 'N', 1, false};
     double max_speed = 0, max_hz = 0, min_hz = 0;
-    bool verbose = false;
 };
 
 struct Pins {
@@ -61,7 +59,7 @@ struct Pins {
 
 class Drive {
 public:
-    Drive(const Kind &kind, const Options &options) : kind_(kind), options_(options) {}
+    Drive(const Kind &kind, const Options &options) : kind_(kind), options_(options), pins_(kind.name) {}
     ~Drive() {
         if (link_) modbus_close(link_);
         modbus_free(link_);
@@ -69,33 +67,33 @@ public:
 
     int run() {
         if (!open() || !make_pins()) return 1;
-        hal_ready(component_);
+        pins_.ready();
         while (!ending) {
             double period = *pins_->period;
             std::this_thread::sleep_for(std::chrono::duration<double>(period > 0.001 ? std::min(period, 2.0) : 0.001));
             if (!ending) step();
         }
         write(kind_.run, STOP);
-        hal_exit(component_);
+        pins_.exit();
         return 0;
     }
 
 private:
     bool open() {
-        link_ = modbus_new_rtu(options_.device.c_str(), options_.rate, options_.parity, options_.bits, options_.stop);
-        if (link_ && modbus_set_slave(link_, options_.target) == 0 && modbus_connect(link_) == 0) {
-            modbus_set_debug(link_, options_.verbose);
+        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity, options_.line.bits, options_.line.stop);
+        if (link_ && modbus_set_slave(link_, options_.line.target) == 0 && modbus_connect(link_) == 0) {
+            modbus_set_debug(link_, options_.line.debug);
             modbus_set_response_timeout(link_, 0, static_cast<uint32_t>(kind_.response_us));
             return true;
         }
-        fprintf(stderr, "%s: ERROR: %s: %s\n", kind_.name, options_.device.c_str(), modbus_strerror(errno));
+        fprintf(stderr, "%s: ERROR: %s: %s\n", kind_.name, options_.line.device.c_str(), modbus_strerror(errno));
         return false;
     }
 
     /// Up to six tries with the silence that the drive needs before each.
     template <class F> bool transact(const char *what, int address, F once) {
         for (int n = 0; n < TRIES; n++) {
-            std::this_thread::sleep_for(std::chrono::microseconds(kind_.gap_bytes * 10 * 1000000LL / options_.rate));
+            std::this_thread::sleep_for(std::chrono::microseconds(kind_.gap_bytes * 10 * 1000000LL / options_.line.rate));
             if (once()) {
                 told_ = false;
                 return true;
@@ -151,35 +149,25 @@ private:
         write(kind_.run, STOP);
     }
 
-    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F make) { return make(dir, &at, component_, "%s.%s", kind_.name, name) == 0; }
-
     bool make_pins() {
-        component_ = hal_init(kind_.name);
-        if (component_ < 0) return false;
-        pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
-        if (!pins_ || !make_all()) {
-            hal_exit(component_);
-            return false;
-        }
+        if (!pins_.make([this](Pins &p) { return make_all(p); })) return false;
         *pins_->period = 0.1;
         return true;
     }
 
-    bool make_all() {
-        Pins &p = *pins_;
+    bool make_all(Pins &p) {
         for (size_t n = 0; n < MAX_VALUES && kind_.values[n].pin; n++)
-            if (!pin(p.values[n], HAL_OUT, kind_.values[n].pin, hal_pin_float_newf)) return false;
-        if (kind_.fault != NO_REGISTER && (!pin(p.fault, HAL_OUT, "fault-info", hal_pin_float_newf) || !pin(p.fault_code, HAL_OUT, "fault-info-code", hal_pin_u32_newf))) return false;
-        return pin(p.period, HAL_IN, "period-seconds", hal_pin_float_newf) && pin(p.speed_cmd, HAL_IN, "speed-cmd", hal_pin_float_newf) &&
-               pin(p.freq_cmd, HAL_OUT, "freq-cmd", hal_pin_float_newf) && pin(p.at_speed, HAL_OUT, "at-speed", hal_pin_bit_newf) &&
-               pin(p.on, HAL_IN, "spindle-on", hal_pin_bit_newf) && pin(p.errors, HAL_OUT, "modbus-errors", hal_pin_u32_newf);
+            if (!pins_.pin(p.values[n], HAL_OUT, kind_.values[n].pin, hal_pin_float_newf)) return false;
+        if (kind_.fault != NO_REGISTER && (!pins_.pin(p.fault, HAL_OUT, "fault-info", hal_pin_float_newf) || !pins_.pin(p.fault_code, HAL_OUT, "fault-info-code", hal_pin_u32_newf))) return false;
+        return pins_.pin(p.period, HAL_IN, "period-seconds", hal_pin_float_newf) && pins_.pin(p.speed_cmd, HAL_IN, "speed-cmd", hal_pin_float_newf) &&
+               pins_.pin(p.freq_cmd, HAL_OUT, "freq-cmd", hal_pin_float_newf) && pins_.pin(p.at_speed, HAL_OUT, "at-speed", hal_pin_bit_newf) &&
+               pins_.pin(p.on, HAL_IN, "spindle-on", hal_pin_bit_newf) && pins_.pin(p.errors, HAL_OUT, "modbus-errors", hal_pin_u32_newf);
     }
 
     const Kind &kind_;
     const Options &options_;
     modbus_t *link_ = nullptr;
-    int component_ = -1;
-    Pins *pins_ = nullptr;
+    vfd::PinnedComponent<Pins> pins_;
     bool told_ = false;
 };
 
@@ -195,22 +183,17 @@ void usage(const Kind &kind) {
 /// False with the status to end with.
 bool parse(const Kind &kind, int argc, char **argv, Options &o, int &status) {
     status = 1;
-    o.rate = kind.rate;
-    o.stop = kind.stop;
+    o.line.rate = kind.rate;
+    o.line.stop = kind.stop;
     for (int c; (c = getopt_long(argc, argv, "S:F:f:d:r:b:p:s:t:vh", LONG, nullptr)) != -1;) {
-        const char *chosen = nullptr;
-        double value = 0;
+        auto taken = vfd::line_option(kind.name, c, optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}, o.line);
+        if (taken && !*taken) return false;
+        if (taken) continue;
         switch (c) {
         case 'S': if (!number_of(kind.name, "motor-max-speed", optarg, 1, 1e6, o.max_speed)) return false; break;
         case 'F': if (!number_of(kind.name, "max-frequency", optarg, 0.01, 10000, o.max_hz)) return false; break;
         case 'f': if (!number_of(kind.name, "min-frequency", optarg, 0.01, 10000, o.min_hz)) return false; break;
-        case 'd': o.device = optarg; break;
-        case 'r': if (!(chosen = one_of(kind.name, "rate", optarg, {"1200", "2400", "4800", "9600", "19200", "38400"}))) return false; o.rate = atoi(chosen); break;
-        case 'b': if (!(chosen = one_of(kind.name, "bits", optarg, {"5", "6", "7", "8"}))) return false; o.bits = atoi(chosen); break;
-        case 'p': if (!(chosen = one_of(kind.name, "parity", optarg, {"even", "odd", "none"}))) return false; o.parity = static_cast<char>(*chosen - 'a' + 'A'); break;
-        case 's': if (!(chosen = one_of(kind.name, "stopbits", optarg, {"1", "2"}))) return false; o.stop = atoi(chosen); break;
-        case 't': if (!number_of(kind.name, "target", optarg, 1, 254, value)) return false; o.target = static_cast<int>(value); break;
-        case 'v': o.verbose = true; break;
+        case 'v': o.line.debug = true; break;
         case 'h': usage(kind); status = 0; return false;
         default: return false;
         }
