@@ -270,7 +270,8 @@ proc ::tp::loadusr_substitute {args} {
         }
         if {[string match *n $word]} { incr i }
     }
-    if {$program ne "" && [auto_execok [string map [list ~/ $::env(HOME)/] $program]] eq ""} {
+    set file [string map [list ~/ $::env(HOME)/] $program]
+    if {$program ne "" && [auto_execok $file] eq "" && [auto_execok [regsub {\.py$} $file ""]] eq ""} {
         say "loadusr <$program> not found"
         puts "Continuing"
         return

@@ -45,6 +45,15 @@ loadusr -Wn none true
 loadusr -Wn none no-such-program
 list comp early
 HAL
+mkdir -p bin
+printf '#!/bin/sh\nexec %s comp.py my-gui good\n' "$py" > bin/my-gui
+chmod +x bin/my-gui
+PATH=$PWD/bin:$PATH
+run 'a program of the PATH called with .py' <<HAL
+loadusr -W my-gui.py
+list comp my-gui
+loadusr -W no-gui.py
+HAL
 run 'module that is loaded already' <<HAL
 loadrt and2
 loadrt and2
@@ -67,4 +76,4 @@ list sig
 HAL
 halcmd unload all
 realtime stop
-rm -rf out.txt t.hal comp.py realtime.log
+rm -rf out.txt t.hal comp.py realtime.log bin

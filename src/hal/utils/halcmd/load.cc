@@ -83,6 +83,14 @@ enum class Clock {
     Reserved ///< gets a place of its own
 };
 
+/// What a program called NAME.py, of the PATH, may be installed as: NAME. "" for other names.
+std::string without_py(const std::string &program)
+{
+    size_t stem = program.size() < 3 ? 0 : program.size() - 3;
+    bool of_path = program.find('/') == program.npos;
+    return of_path && stem > 0 && program.compare(stem, 3, ".py") == 0 ? program.substr(0, stem) : "";
+}
+
 /// Starts a program with words as its arguments. The pid or a negative errno. A failing exec
 /// is told by the child, which then ends with status 1.
 pid_t start_program(Session &s, const Args &words, Clock clock)
@@ -103,7 +111,9 @@ pid_t start_program(Session &s, const Args &words, Clock clock)
         if (slot[0]) setenv(KERF_CLOCK_SLOT_ENV, slot, 1);
         else unsetenv(KERF_CLOCK_SLOT_ENV);
         execvp(argv[0], argv.data());
-        s.error(strf("execv(%s): %s", argv[0], strerror(errno)));
+        int why = errno;
+        if (std::string plain = without_py(words[0]); !plain.empty()) execvp(plain.c_str(), argv.data());
+        s.error(strf("execv(%s): %s", argv[0], strerror(why)));
         fflush(stdout);
         _exit(1);
     }
@@ -342,7 +352,8 @@ std::string program_file(const std::string &program)
         if (access(file.c_str(), X_OK) == 0) return file;
         dir.clear();
     }
-    return "";
+    std::string plain = without_py(program);
+    return plain.empty() ? "" : program_file(plain);
 }
 
 /// Whether a program started in the background is likely to take part in virtual time: it or
