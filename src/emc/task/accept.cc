@@ -67,6 +67,7 @@ const std::vector<AcceptRow> &accept_table() {
         {EMC_TASK_PLAN_RESTORE_CONFIRM_TYPE,        "nnynnnn"},
         {EMC_TASK_TAKE_CONTROL_TYPE,                "yyyyyyy"},
         {EMC_TASK_RELEASE_CONTROL_TYPE,             "yyyyyyy"},
+        {EMC_TASK_MDI_CANCEL_TYPE,                  "yyyyyyy"},
         {EMC_TASK_PLAN_EXECUTE_TYPE,                "nyynyyy"},
         {EMC_TASK_PLAN_PAUSE_TYPE,                  "nyyyyyy"},
         {EMC_TASK_PLAN_RESUME_TYPE,                 "nyyyyyy"},

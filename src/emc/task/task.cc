@@ -110,6 +110,7 @@ bool Task::start() {
     if (auto t = ini_.findReal("CYCLE_TIME", "TASK")) cycle_time_ = *t;
     else rcs_print("[TASK] CYCLE_TIME not found in %s; using default %f\n", ini_file_.c_str(), cycle_time_);
     if (int n = ini_.findIntV("INTERP_MAX_LEN", "TASK", 1000); n > 0) interp_max_len_ = static_cast<size_t>(n);
+    if (int n = ini_.findIntV("MDI_QUEUE", "TASK", -1); n >= 0) mdi_queue_max_ = static_cast<size_t>(n);
     run_from_line_restores_ = strcasecmp(ini_.findStringV("RUN_FROM_LINE", "TASK", "").c_str(), "restore") == 0;
     io_error_ = ini_.findStringV("IO_ERROR", "TASK", io_error_);
 
@@ -317,12 +318,13 @@ void Task::watch_estop() {
     }
     if (!stat_.io.aux.estop) return;
     if (stat_.motion.traj.enabled) {
+        chain_due_ = 0;
+        operator_error("Emergency stop: the chain has opened (iocontrol.0.emc-enable-in is FALSE)");
         motion_.disable();
         abort_task();
         io_.abort(EMC_ABORT_AUX_ESTOP);
         all_spindles_off();
         motion_.unhome(-2);
-        abort_mdi();
         on_abort(EMC_ABORT_AUX_ESTOP);
         synch();
     }
@@ -355,7 +357,6 @@ void Task::watch_errors() {
     abort_task();
     io_.abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
     all_spindles_off();
-    abort_mdi();
     clear_program();
     on_abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
     synch_later();
@@ -435,7 +436,7 @@ void Task::publish() {
     last_motion_id_ = traj.id;
     t.optional_stop_state = canon_->optional_stop;
     t.block_delete_state = canon_->block_delete;
-    t.queuedMDIcommands = static_cast<int>(mdi_queue_.size());
+    show_mdi_queue();
 
     bool busy = t.interpState != EMC_TASK_INTERP_IDLE;
     bool from_tag = busy && t.mode == EMC_TASK_MODE_AUTO && Interp::active_modes(t.activeGCodes, t.activeMCodes, t.activeSettings, traj.tag);
@@ -489,6 +490,9 @@ void Task::abort_task() {
     const state_tag_t tag = running_tag_;
     motion_.abort();
     jog_owners_.clear();
+    if (!mdi_queue_.empty()) rcs_print("mdi_execute_abort: dropping %zu queued MDI commands\n", mdi_queue_.size());
+    mdi_queue_.clear();
+    mdi_continue_ = false;
     clear_program();
     t.task_paused = 0;
     t.motionLine = t.readLine = 0;
@@ -524,14 +528,6 @@ void Task::synch_later() {
 void Task::stop_stepping() {
     stepping_ = step_given_ = false;
     stat_.motion.traj.single_stepping = false;
-}
-
-void Task::abort_mdi() {
-    if (mdi_continue_ || wait_) interp_->reset();
-    if (!mdi_queue_.empty()) rcs_print("mdi_execute_abort: dropping %zu queued MDI commands\n", mdi_queue_.size());
-    mdi_queue_.clear();
-    mdi_continue_ = mdi_active_ = false;
-    stat_.task.interpState = EMC_TASK_INTERP_IDLE;
 }
 
 void Task::all_spindles_off() {

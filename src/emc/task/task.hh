@@ -81,6 +81,7 @@ private:
     bool skip_line();
     void finish_program();
     void mdi_cycle();
+    int mdi_cancel(int serial);
     int mdi_run(const char *text);
     int mdi_result(int r);
     bool mdi_goes_on();
@@ -117,7 +118,6 @@ private:
 
     // ---- stopping ----
     void abort_task();
-    void abort_mdi();
     void all_spindles_off();
     void on_abort(int reason, const char *text = "");
     void clear_program();
@@ -198,10 +198,12 @@ private:
     bool line_read_ = false;         // the interpreter has read a line that is to be executed
     bool run_from_line_restores_ = false;
     // MDI
-    std::deque<std::string> mdi_queue_;
+    struct MdiLine { int serial; std::string text; }; // the command that brought it
+    std::deque<MdiLine> mdi_queue_;
+    size_t mdi_queue_max_ = SIZE_MAX; // lines that may wait
+    void show_mdi_queue();
     bool mdi_continue_ = false;  // a called subroutine has more to do
     bool mdi_sliced_ = false;    // ... and does not wait for the machine
-    bool mdi_active_ = false;
     // upload of a program
     std::string upload_name_;
     int upload_fd_ = -1;

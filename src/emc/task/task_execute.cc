@@ -263,7 +263,6 @@ void Task::recover() {
     abort_task();
     io_.abort(EMC_ABORT_TASK_EXEC_ERROR);
     all_spindles_off();
-    abort_mdi();
     clear_program();
     stop_stepping();
     on_abort(EMC_ABORT_TASK_EXEC_ERROR);

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -115,7 +116,6 @@ int Task::do_command(const NMLmsg &m) {
             motion_.traj_abort();
             io_.abort(EMC_ABORT_TASK_ABORT);
             all_spindles_off();
-            abort_mdi();
             on_abort(EMC_ABORT_TASK_ABORT);
         }
         return 0;
@@ -130,6 +130,7 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_TASK_RELEASE_CONTROL_TYPE:
         if (control_.owned_by(command_writer_)) control_.release();
         return 0;
+    case EMC_TASK_MDI_CANCEL_TYPE: return mdi_cancel(as<EMC_TASK_MDI_CANCEL>(m).line_serial);
     case EMC_TASK_PLAN_STEP_TYPE: return plan_step();
     case EMC_TASK_PLAN_RESUME_TYPE: return plan_resume();
     case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
@@ -246,7 +247,6 @@ int Task::set_mode(int mode) {
     if (mode < EMC_TASK_MODE_MANUAL || mode > EMC_TASK_MODE_MDI) return -1;
     if (mode == EMC_TASK_MODE_MANUAL && t.mode != EMC_TASK_MODE_MANUAL) {
         abort_task();
-        abort_mdi();
         t.currentLine = 0;
         stop_stepping();
         clear_program();
@@ -283,7 +283,6 @@ int Task::set_state(int state) {
         io_.abort(EMC_ABORT_TASK_STATE_OFF);
         io_.flood(false);
         abort_task();
-        abort_mdi();
         motion_.unhome(-2);
         on_abort(EMC_ABORT_TASK_STATE_OFF);
         synch();
@@ -293,7 +292,6 @@ int Task::set_state(int state) {
         chain_due_ = kerf_clock_now_ns() + CHAIN_PATIENCE_NS;
         io_.flood(false);
         abort_task();
-        abort_mdi();
         io_.abort(EMC_ABORT_TASK_STATE_ESTOP_RESET);
         all_spindles_off();
         on_abort(EMC_ABORT_TASK_STATE_ESTOP_RESET);
@@ -307,7 +305,6 @@ int Task::set_state(int state) {
         motion_.disable();
         io_.flood(false);
         abort_task();
-        abort_mdi();
         io_.abort(EMC_ABORT_TASK_STATE_ESTOP);
         all_spindles_off();
         motion_.unhome(-2);
@@ -625,11 +622,34 @@ int Task::plan_execute(const char *text) {
     }
     stop_stepping();
     if (!*text) return 0;
-    if (!mdi_queue_.empty() || wait_ || mdi_continue_) {
-        mdi_queue_.emplace_back(text);
-        return 0;
+    const bool waits = !mdi_queue_.empty() || wait_ || mdi_continue_;
+    if (mdi_queue_max_ == 0 ? waits || t.interpState != EMC_TASK_INTERP_IDLE : mdi_queue_.size() >= mdi_queue_max_) {
+        operator_error(mdi_queue_max_ == 0 ? "An MDI line is still being executed: the next one was refused ([TASK]MDI_QUEUE = 0)"
+                                           : ("MDI lines waiting: " + std::to_string(mdi_queue_.size()) + ", as many as [TASK]MDI_QUEUE allows: the next one was refused").c_str());
+        return -1;
     }
-    return mdi_run(text);
+    if (!waits) return mdi_run(text);
+    mdi_queue_.push_back({command_serial_, text});
+    return 0;
+}
+
+// Takes a line out of those that wait; 0: all of them.
+int Task::mdi_cancel(int serial) {
+    const size_t before = mdi_queue_.size();
+    mdi_queue_.erase(std::remove_if(mdi_queue_.begin(), mdi_queue_.end(), [&](const MdiLine &l) { return serial == 0 || l.serial == serial; }), mdi_queue_.end());
+    if (serial == 0 || mdi_queue_.size() < before) return 0;
+    operator_error("That MDI line does not wait any more");
+    return -1;
+}
+
+void Task::show_mdi_queue() {
+    stat_.task.queuedMDIcommands = static_cast<int>(mdi_queue_.size());
+    for (size_t i = 0; i < EMC_MDI_QUEUE_SHOWN; i++) {
+        const bool waits = i < mdi_queue_.size();
+        if (!waits && stat_.mdi_serial[i] == 0) return;
+        stat_.mdi_serial[i] = waits ? mdi_queue_[i].serial : 0;
+        copy_text(stat_.mdi_line[i], waits ? mdi_queue_[i].text.c_str() : "");
+    }
 }
 
 int Task::mdi_run(const char *text) {
@@ -637,7 +657,6 @@ int Task::mdi_run(const char *text) {
     copy_text(t.command, text);
     t.interpState = EMC_TASK_INTERP_READING;
     t.interpreter_errcode = 0;
-    mdi_active_ = true;
     forget_fault();
     list_.set_level(0);
     return mdi_result(interp_->execute(text, 0));
@@ -654,7 +673,6 @@ int Task::mdi_result(int r) {
         abort_task();
         io_.abort(EMC_ABORT_INTERPRETER_ERROR_MDI);
         all_spindles_off();
-        abort_mdi();
         on_abort(EMC_ABORT_INTERPRETER_ERROR_MDI, "interpreter error during MDI");
         command_failed();
         return -1;
@@ -686,7 +704,7 @@ void Task::mdi_cycle() {
     EMC_TASK_STAT &t = stat_.task;
     if (wait_ || mdi_goes_on()) return;
     if (!mdi_queue_.empty()) {
-        std::string next = mdi_queue_.front();
+        const std::string next = mdi_queue_.front().text;
         mdi_queue_.pop_front();
         if (mdi_run(next.c_str()) != 0) command_failed();
         return;
@@ -694,6 +712,5 @@ void Task::mdi_cycle() {
     if (t.interpState != EMC_TASK_INTERP_IDLE && idle() && stat_.motion.traj.queue == 0 && stat_.io.status == RCS_DONE) {
         t.interpState = EMC_TASK_INTERP_IDLE;
         t.command[0] = 0;
-        mdi_active_ = false;
     }
 }

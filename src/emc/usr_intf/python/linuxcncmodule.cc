@@ -191,6 +191,11 @@ void define_stat(py::module_ &m) {
     EMC_STAT::fields(maker, sample);
     cls.def_property_readonly("state", [](const Stat &s) { return s.data.status; }, "RCS_DONE, RCS_EXEC or RCS_ERROR");
     cls.def_property_readonly("echo_serial_number", [](const Stat &s) { return s.data.echo_serial_number; }, "serial number of the last command task has read");
+    cls.def_property_readonly("mdi_queue", [](const Stat &s) {
+            py::list lines;
+            for (int i = 0; i < EMC_MDI_QUEUE_SHOWN && s.data.mdi_serial[i] != 0; i++) lines.append(py::make_tuple(s.data.mdi_serial[i], to_python(s.data.mdi_line[i])));
+            return py::tuple(lines);
+        }, "MDI lines that wait, the next one first, at most 16: (serial number of the command that brought it, line)");
     cls.def_property_readonly("joint", [](const Stat &s) { return dicts(s.data.motion.joint); }, "one dict per joint");
     cls.def_property_readonly("axis", [](const Stat &s) { return dicts(s.data.motion.axis); }, "one dict per axis, XYZABCUVW");
     cls.def_property_readonly("spindle", [](const Stat &s) { return dicts(s.data.motion.spindle); }, "one dict per spindle");
@@ -303,6 +308,12 @@ void automatic(Command &c, const py::args &a) {
 void take_control(Command &c, const std::string &name) {
     EMC_TASK_TAKE_CONTROL m;
     copy_text(m.name, name.c_str());
+    c.give(m);
+}
+
+void mdi_cancel(Command &c, int serial) {
+    EMC_TASK_MDI_CANCEL m;
+    m.line_serial = serial;
     c.give(m);
 }
 
@@ -439,6 +450,8 @@ void define_command(py::module_ &m) {
     cls.def("abort", [](Command &c) { c.plain<EMC_TASK_ABORT>(); }, "Stops everything");
     cls.def("take_control", &take_control, py::arg("name"), "take_control(name): only this program commands the machine from now on; see stat.control_pid");
     cls.def("release_control", [](Command &c) { c.plain<EMC_TASK_RELEASE_CONTROL>(); }, "Everybody commands the machine again");
+    cls.def("mdi_cancel", &mdi_cancel, py::arg("serial"),
+            "mdi_cancel(serial): takes the MDI line that this command brought out of those that wait (stat.mdi_queue); 0: all of them");
     cls.def("restore", &restore, py::arg("line"), "restore(line): shows what a start at that line would restore first (stat.restore_text); nothing moves");
     cls.def("restore_confirm", &restore_confirm, py::arg("line"), "restore_confirm(line): restores what was shown for that line, then runs from there");
     cls.def("auto", checked(automatic), "auto(AUTO_RUN, line) or auto(AUTO_PAUSE | AUTO_RESUME | AUTO_STEP | AUTO_REVERSE | AUTO_FORWARD)");
