@@ -540,9 +540,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         demo = initial is None
         if demo:
             initial = os.path.join(os.path.dirname(__file__), "demo-lathe.ngc" if self.settings.lathe else "demo-mill.ngc")
-        initial = self.beside_ini(initial.strip('"'))
-        if os.path.isfile(initial):          # OPEN_FILE = "" is none
-            self.root.after(50, lambda: self.open_file_guts(initial, addrecent=not demo))
+        wanted = initial.strip('"')          # OPEN_FILE = "" is none
+        if wanted:
+            self.root.after(50, lambda: self.open_file_guts(self.beside_ini(wanted), addrecent=not demo))
 
     # What other programs ask for (remote.py).
 

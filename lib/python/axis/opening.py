@@ -33,7 +33,7 @@ class OpeningPart:
             return
         path = os.path.abspath(path)
         if not os.path.isfile(path):
-            self.notifications.add("error", f"{path}: no such file")
+            self.notifications.add("error", self.translate("There is no file %s") % path)
             return
         if addrecent:
             self.add_recent(path)

@@ -43,6 +43,8 @@ def common(op):
           "editor:", v.has_editor.get(), "cone:", app.options.cone_size, app.options.cone_scaling, app.options.min_tool_diameter)
     print("file types:", [(name, list(patterns)) for name, patterns in app.loader.file_types()])
     print("start of the preview:", app.loader.init_codes(op.stat))
+    for text in op.messages():
+        print("told:", text)
     print("readout:", [line for line in app.preview.readout_lines if ":" in line][:4])
 
 

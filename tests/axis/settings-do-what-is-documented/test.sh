@@ -10,6 +10,7 @@ run() { # title, machine
 }
 ini_edit='/^OPEN_FILE/d' run "a mill as it is: the built-in program" mill
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = ""|' run "OPEN_FILE = \"\"" xyza
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = gone.ngc|' run "OPEN_FILE = gone.ngc" xyza
 ini_edit='s|^\[DISPLAY\]|&\nBACK_TOOL_LATHE = 1\nJOG_AXES = xz|' run "a lathe with the tool behind" lathe
 
 cat > display <<INI
