@@ -12,6 +12,8 @@ import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .language import _
+
 FIRST = ("sim", "by_interface", "by_machine", "axis", "ngcgui", "touchy", "gscreen", "gmoccapy", "low_graphics")
 NEVER_COPIED = ("maintainer.txt", "nodemocopy")
 AUX_EXAMPLES = "/usr/share/linuxcnc/aux_examples"
@@ -51,8 +53,8 @@ def search_path(tree, environ=os.environ):
 def title(path, tree):
     """What the picker calls a folder of the search path."""
     if path == user_configs():
-        return "My Configurations"
-    return "Sample Configurations" if path == tree.configs else str(path)
+        return _("My Configurations")
+    return _("Sample Configurations") if path == tree.configs else str(path)
 
 
 def scan(folder, samples=False, seen=()):
@@ -83,7 +85,7 @@ def details(path):
     """(description, picture or None) of a file or folder."""
     folder = path if path.is_dir() else path.parent
     candidates = [folder / "README"] if path.is_dir() else [path.with_suffix(".txt"), folder / "README"]
-    text = next((c.read_text(errors="replace") for c in candidates if c.is_file()), "No details available.")
+    text = next((c.read_text(errors="replace") for c in candidates if c.is_file()), _("No details available."))
     pictures = [folder / "logo.gif"] if path.is_dir() else [path.with_suffix(".gif"), folder / "logo.gif"]
     return text, next((p for p in pictures if p.is_file()), None)
 
@@ -131,7 +133,7 @@ def copy(path, tree, roots):
     for ini in target.glob("*.ini"):
         text = ini.read_text(errors="surrogateescape")
         prefix = f"PROGRAM_PREFIX = {Path.home() / 'linuxcnc/nc_files'}"
-        ini.write_text(re.sub(r"(?m)^[ \t]*PROGRAM_PREFIX[ \t]*=.*$", lambda _: prefix, text), errors="surrogateescape")
+        ini.write_text(re.sub(r"(?m)^[ \t]*PROGRAM_PREFIX[ \t]*=.*$", lambda match: prefix, text), errors="surrogateescape")
     make_nc_files(tree)
     return target / path.name
 

@@ -11,6 +11,9 @@ import tkinter as tk
 from pathlib import Path
 from tkinter import ttk
 
+from . import tkstyle
+from .language import _, N_
+
 REPORT = Path("/tmp/linuxcnc.report")
 
 
@@ -44,25 +47,24 @@ class Errors:
 
     def __init__(self, root, print_log, debug_log):
         self.root = root
-        self.texts = {"What the programs reported": read(debug_log), "Steps of the start": read(print_log),
-                      "Kernel messages": kernel_messages()}
-        root.title("LinuxCNC terminated with an error")
-        root.geometry("820x520")
-        root.minsize(480, 300)
-        ttk.Style(root).theme_use("clam")
-        ttk.Label(root, padding=8, wraplength=780, justify="left",
-                  text="LinuxCNC terminated with an error. The last lines below usually say which program or file, and "
-                       "where in it.").pack(fill="x")
-        buttons = ttk.Frame(root, padding=8)
+        self.texts = {N_("What the programs reported"): read(debug_log), N_("Steps of the start"): read(print_log),
+                      N_("Kernel messages"): kernel_messages()}
+        root.title(_("LinuxCNC terminated with an error"))
+        px = tkstyle.apply(root).px
+        tkstyle.centre(root, px(820), px(520), (px(480), px(300)))
+        ttk.Label(root, padding=px(8), wraplength=px(780), justify="left",
+                  text=_("LinuxCNC terminated with an error. The last lines below usually say which program or file, and "
+                       "where in it.")).pack(fill="x")
+        buttons = ttk.Frame(root, padding=px(8))
         buttons.pack(side="bottom", fill="x")
         self.state = ttk.Label(buttons)
         self.state.pack(side="left", fill="x")
-        ttk.Button(buttons, text="Close", command=root.destroy).pack(side="right", padx=(8, 0))
-        ttk.Button(buttons, text="Write report", command=self.report).pack(side="right")
+        ttk.Button(buttons, text=_("Close"), command=root.destroy).pack(side="right", padx=(px(8), 0))
+        ttk.Button(buttons, text=_("Write report"), command=self.report).pack(side="right")
         book = ttk.Notebook(root)
-        book.pack(fill="both", expand=True, padx=8)
+        book.pack(fill="both", expand=True, padx=px(8))
         for name, text in self.texts.items():
-            book.add(self.page(book, text), text=name)
+            book.add(self.page(book, text), text=_(name))
         root.bind("<Escape>", lambda event: root.destroy())
 
     @staticmethod
@@ -73,7 +75,7 @@ class Errors:
         box = tk.Text(frame, wrap="word", font="TkFixedFont", yscrollcommand=bar.set)
         box.pack(fill="both", expand=True)
         bar.configure(command=box.yview)
-        box.insert("end", text or "(nothing)\n")
+        box.insert("end", text or _("(nothing)") + "\n")
         box.see("end")
         box.configure(state="disabled")
         return frame
@@ -83,7 +85,7 @@ class Errors:
         subprocess.run(["linuxcnc_info", "-s"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
         parts = [f"===== {name}\n{text}" for name, text in self.texts.items()]
         REPORT.write_text("\n".join(parts) + "\n===== System\n" + read("/tmp/linuxcnc_info.txt"))
-        self.state.configure(text=f"Written: {REPORT}")
+        self.state.configure(text=_("Written: %s") % REPORT)
 
 
 def main(argv):
@@ -91,7 +93,7 @@ def main(argv):
     if kind == "splash":
         splash(*arguments)
     else:
-        root = tk.Tk()
+        root = tkstyle.open_display("linuxcnc", "LinuxCNC")
         Errors(root, *arguments)
         root.mainloop()
     return 0

@@ -10,10 +10,11 @@ from pathlib import Path
 from tkinter import messagebox, ttk
 
 from . import configs, tkstyle
+from .language import _
 from .tree import Tree
 
-WELCOME = ("Pick the configuration of your machine and press OK.\n"
-           "Sample configurations are copied to your own folder first.")
+WELCOME = (_("Pick the configuration of your machine and press OK.\n"
+           "Sample configurations are copied to your own folder first."))
 
 
 class Picker:
@@ -25,7 +26,7 @@ class Picker:
         self.paths = {}
         style = self.style = tkstyle.apply(root)
         px = style.px
-        root.title("LinuxCNC Configuration Selector")
+        root.title(_("LinuxCNC Configuration Selector"))
         tkstyle.centre(root, px(780), px(480), (px(480), px(320)))
         head = ttk.Frame(root, padding=px(8))
         head.pack(fill="x")
@@ -34,8 +35,8 @@ class Picker:
         buttons = ttk.Frame(root, padding=px(8))
         buttons.pack(side="bottom", fill="x")
         self.shortcut = tk.BooleanVar(root, False)
-        ttk.Checkbutton(buttons, text="Create a shortcut on the desktop", variable=self.shortcut).pack(side="left")
-        ttk.Button(buttons, text="Cancel", command=root.destroy).pack(side="right", padx=(px(8), 0))
+        ttk.Checkbutton(buttons, text=_("Create a shortcut on the desktop"), variable=self.shortcut).pack(side="left")
+        ttk.Button(buttons, text=_("Cancel"), command=root.destroy).pack(side="right", padx=(px(8), 0))
         self.ok = ttk.Button(buttons, text="OK", command=self.accept, state="disabled")
         self.ok.pack(side="right")
         panes = ttk.PanedWindow(root, orient="horizontal")
@@ -133,15 +134,14 @@ class Picker:
             return None
         try:
             if configs.needs_copy(path, self.tree) and messagebox.askyesno(
-                    "Copy the configuration", f"Would you like to copy {path.stem} to\n{configs.user_configs()}?\n"
-                    "You can change the copy; the original stays as it is.", parent=self.root):
+                    _("Copy the configuration"), _("Would you like to copy %s to\n%s?\nYou can change the copy; the original stays as it is.") % (path.stem, configs.user_configs()), parent=self.root):
                 path = configs.copy(path, self.tree, self.roots)
-                messagebox.showinfo("Copied", f"The configuration is now in\n{path.parent}", parent=self.root)
+                messagebox.showinfo(_("Copied"), _("The configuration is now in\n%s") % path.parent, parent=self.root)
             if self.shortcut.get():
                 configs.make_shortcut(path, self.tree)
             configs.remember(path)
         except OSError as e:
-            messagebox.showerror("Not possible", str(e), parent=self.root)
+            messagebox.showerror(_("Not possible"), str(e), parent=self.root)
             return "break"
         self.chosen = path
         self.root.destroy()

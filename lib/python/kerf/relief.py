@@ -11,12 +11,14 @@ import numpy
 
 from rs274.author import Gcode
 
+from .language import _, N_
+
 UNITS = ("G20", "G21")
-BORDERS = ("None", "White", "Black")
-PATTERNS = ("Rows", "Columns", "Rows then Columns", "Columns then Rows")
-CONVERTERS = ("Positive", "Negative", "Alternating", "Up Milling", "Down Milling")
-TOOLS = ("Ball End", "Flat End", "30 Degree", "45 Degree", "60 Degree")
-BOUNDED = ("None", "Secondary", "Full")
+BORDERS = (N_("None"), N_("White"), N_("Black"))
+PATTERNS = (N_("Rows"), N_("Columns"), N_("Rows then Columns"), N_("Columns then Rows"))
+CONVERTERS = (N_("Positive"), N_("Negative"), N_("Alternating"), N_("Up Milling"), N_("Down Milling"))
+TOOLS = (N_("Ball End"), N_("Flat End"), N_("30 Degree"), N_("45 Degree"), N_("60 Degree"))
+BOUNDED = (N_("None"), N_("Secondary"), N_("Full"))
 MAX_TOOL_PIXELS = 400
 OUTSIDE = -1e30  # height of what is beside the picture: in nobody's way
 
@@ -52,19 +54,19 @@ class Settings:
     def check(self):
         for name in ("tolerance", "pixel_size", "feed_rate", "plunge_feed_rate", "depth", "tool_diameter", "safety_height"):
             if not (0 < getattr(self, name) < 1e6):
-                raise Mistake(f"{name} must be more than 0, not {getattr(self, name)}")
+                raise Mistake(_("%s must be more than 0, not %s") % (name, getattr(self, name)))
         for name in ("spindle_speed", "roughing_offset", "roughing_depth"):
             if not (0 <= getattr(self, name) < 1e6):
-                raise Mistake(f"{name} must not be negative")
+                raise Mistake(_("%s must not be negative") % name)
         if self.pixelstep < 1:
-            raise Mistake(f"pixelstep must be 1 or more, not {self.pixelstep}")
+            raise Mistake(_("%s must be 1 or more, not %s") % ("pixelstep", self.pixelstep))
         if not 0 < self.contact_angle < 90:
-            raise Mistake(f"contact_angle must be between 0 and 90, not {self.contact_angle}")
+            raise Mistake(_("%s must be between 0 and 90, not %s") % ("contact_angle", self.contact_angle))
         for name, choices in CHOICES.items():
             if not 0 <= getattr(self, name) < len(choices):
-                raise Mistake(f"{name} must be one of {', '.join(choices)}")
+                raise Mistake(_("%s must be one of %s") % (name, ", ".join(choices)))
         if self.tool_pixels() > MAX_TOOL_PIXELS:
-            raise Mistake(f"the tool covers {self.tool_pixels():.0f} pixels; at most {MAX_TOOL_PIXELS}: is pixel_size right?")
+            raise Mistake(_("the tool covers %.0f pixels; at most %d: is pixel_size right?") % (self.tool_pixels(), MAX_TOOL_PIXELS))
 
     def tool_pixels(self):
         return self.tool_diameter / self.pixel_size

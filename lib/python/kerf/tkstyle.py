@@ -113,7 +113,7 @@ def _themed(theme, colours, style, letters):
         theme.configure(name, indicatorsize=style.px(14), padding=style.px(2), indicatorbackground=colours["field"],
                         indicatorforeground=colours["ink"])
         theme.map(name, background=[("active", face)], indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
-    theme.configure("TMenubutton", arrowsize=style.px(9), padding=(style.px(8), style.px(4)))
+    theme.configure("TMenubutton", arrowsize=style.px(5), padding=(style.px(6), style.px(4)))
     theme.configure("Horizontal.TScale", sliderlength=style.px(30))
     theme.configure("TEntry", padding=style.px(3))
     theme.map("TEntry", fieldbackground=[("disabled", face), ("readonly", face)])

@@ -13,6 +13,7 @@ if (here.parent / "lib/python/kerf").is_dir():
 
 import hal
 from hal import query
+from kerf.language import _, N_
 
 POLL_MS = 1000
 PULSE_MS = 100              # of halui.program.resume
@@ -22,10 +23,10 @@ USAGE_SHOWN, USAGE_HIGH = 50, 80        # % of the waypoints
 PAUSED, RESUME = "halui.program.is-paused", "halui.program.resume"
 NEEDED = ("move-enable", "apply-offsets", "offset-applied", "waypoint-limit", "waypoint-percent-used",
           "backtrack-enable")
-DISABLED, ENABLED, ACTIVE = "Offsets Disabled", "Offsets Enabled", "OFFSETS ACTIVE"
-REMOVING, LIMIT = "Removing offsets", "Waypoint limit (Disable required)"
+DISABLED, ENABLED, ACTIVE = N_("Offsets Disabled"), N_("Offsets Enabled"), N_("OFFSETS ACTIVE")
+REMOVING, LIMIT = N_("Removing offsets"), N_("Waypoint limit (Disable required)")
 COLORS = {DISABLED: "#7fd67f", ENABLED: "cyan", ACTIVE: "#ff5a4d", REMOVING: "yellow", LIMIT: "orange"}
-MOTION_OFF = " --- Motion Off"
+MOTION_OFF = N_("Motion Off")
 
 
 class Unusable(Exception):
@@ -181,8 +182,8 @@ class Offsets:
         else:
             text = ENABLED if self.enabled() else DISABLED
         if not self.motion_on():
-            return text + MOTION_OFF, "white"
-        return text, COLORS[text]
+            return f"{_(text)} --- {_(MOTION_OFF)}", "white"
+        return _(text), COLORS[text]
 
 
 class Resumer:
@@ -244,7 +245,7 @@ class Window:
         self.values, self.entries, self.controls, self.countdown = {}, {}, [], None
         root.title("moveoff_gui")
         root.option_add("*Font", f"TkDefaultFont {options.size}")
-        self.status = tk.Label(root, width=len(LIMIT + MOTION_OFF), relief="ridge", font=self.font)
+        self.status = tk.Label(root, width=len(f"{_(LIMIT)} --- {_(MOTION_OFF)}"), relief="ridge", font=self.font)
         self.status.pack(fill="x", padx=6, pady=6)
         if not offsets.display_only:
             self._switches()
@@ -265,11 +266,11 @@ class Window:
     def _switches(self):
         frame = self.tk.Frame(self.root)
         frame.pack(fill="x", padx=6)
-        self.switch = self.tk.Checkbutton(frame, text="Enable Offsets", variable=self.enable, font=self.font,
+        self.switch = self.tk.Checkbutton(frame, text=_("Enable Offsets"), variable=self.enable, font=self.font,
                                           command=self.switched)
         self.switch.pack(side="left")
         self.backtracking = self.tk.Checkbutton(
-            frame, text="Backtrack On", variable=self.backtrack, font=self.font,
+            frame, text=_("Backtrack On"), variable=self.backtrack, font=self.font,
             command=lambda: hal.set_p("mv.backtrack-enable", self.backtrack.get()))
         self.backtracking.pack(side="right")
 
@@ -289,14 +290,14 @@ class Window:
             entry = tk.Entry(table, width=9, justify="right", font=self.font)
             entry.grid(row=row, column=5, padx=4)
             for key in ("<Return>", "<KP_Enter>"):
-                entry.bind(key, lambda _: self.enter(axis))
+                entry.bind(key, lambda _event: self.enter(axis))
             self.entries[axis] = entry
             self.controls.append(entry)
 
     def _increments(self):
         frame = self.tk.Frame(self.root)
         frame.pack(fill="x", padx=6)
-        self.tk.Label(frame, text="Increment", font=self.font).pack(side="left")
+        self.tk.Label(frame, text=_("Increment"), font=self.font).pack(side="left")
         self.radios = [self.tk.Radiobutton(frame, text=f"{size:g}", value=size, variable=self.increment, font=self.font)
                        for size in self.options.inc]
         for radio in self.radios:
@@ -336,7 +337,7 @@ class Window:
         for axis, label in self.values.items():
             label.configure(text=f"{offsets.current(axis):.4f}")
         usage = offsets.usage()
-        self.note.configure(text=f"Waypoints used: {usage}%" if usage >= USAGE_SHOWN else "",
+        self.note.configure(text=_("Waypoints used: %d%%") % usage if usage >= USAGE_SHOWN else "",
                             fg="red" if usage > USAGE_HIGH else "black")
         if offsets.display_only:
             return
@@ -394,15 +395,15 @@ class Window:
             return
         if not self.countdown:
             self.countdown = self.tk.Toplevel(self.root)
-            self.countdown.title("Resume")
+            self.countdown.title(_("Resume"))
             self.countdown.protocol("WM_DELETE_WINDOW", cancel if not self.options.no_cancel_autoresume else lambda: None)
             self.seconds = self.tk.Label(self.countdown, font=self.font, padx=20, pady=10)
             self.seconds.pack()
             if not self.options.no_cancel_autoresume:
-                self.cancel = self.tk.Button(self.countdown, text="Cancel", font=self.font, command=cancel)
+                self.cancel = self.tk.Button(self.countdown, text=_("Cancel"), font=self.font, command=cancel)
                 self.cancel.pack(pady=10)
             self.countdown.attributes("-topmost", True)
-        self.seconds.configure(text=f"The program is resumed in {seconds:.0f} s")
+        self.seconds.configure(text=_("The program is resumed in %.0f s") % seconds)
 
     def close(self):
         """Offsets do not stay behind a closed window."""

@@ -14,9 +14,11 @@ if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
 from kerf import tkstyle
+from kerf.language import _, N_
 from kerf.haltools.writable import Button, Item, NotWritable
 
 POLL_MS = 100
+MODES = (N_("Pulse"), N_("Toggle"), N_("Hold"))
 PULSE_MS = 200          # longer than any poll of a program
 
 
@@ -44,7 +46,7 @@ def number(calculator, text, kind):
     try:
         return float(result) if kind == "float" else int(str(result), 0)
     except ValueError:
-        raise NotWritable(f"{text!r} is {result}: a {'number' if kind == 'float' else 'whole number'} is needed") from None
+        raise NotWritable((_("%r is %s: a number is needed") if kind == "float" else _("%r is %s: a whole number is needed")) % (text, result)) from None
 
 
 class Row:
@@ -54,7 +56,7 @@ class Row:
         import tkinter as tk
         from tkinter import ttk
         self.tk, self.ttk, self.style, self.item, self.say = tk, ttk, style, item, say
-        self.frame = ttk.LabelFrame(parent, text=f"{item.name} ({item.kind} {item.what})", padding=style.px(6))
+        self.frame = ttk.LabelFrame(parent, text=f"{item.name} ({item.kind} {_(item.what)})", padding=style.px(6))
         self.frame.pack(fill="x", padx=style.px(6), pady=style.px(3))
         (self.bit if item.kind == "bit" else self.numeric)(mode, choice)
 
@@ -71,18 +73,18 @@ class Row:
     def bit(self, mode, choice):
         tk, ttk, button = self.tk, self.ttk, Button(self.item, mode)
         self.button = tk.Button(self.frame, width=10)
-        self.button.bind("<ButtonPress-1>", lambda _: self.press(button))
-        self.button.bind("<ButtonRelease-1>", lambda _: self.try_to(button.release))
-        self.button.bind("<KeyPress-space>", lambda _: self.press(button))
-        self.button.bind("<KeyRelease-space>", lambda _: self.try_to(button.release))
+        self.button.bind("<ButtonPress-1>", lambda _event: self.press(button))
+        self.button.bind("<ButtonRelease-1>", lambda _event: self.try_to(button.release))
+        self.button.bind("<KeyPress-space>", lambda _event: self.press(button))
+        self.button.bind("<KeyRelease-space>", lambda _event: self.try_to(button.release))
         self.button.pack(side="left")
         if choice:
             self.mode = tk.StringVar(value=mode)
-            for name in Button.MODES:
-                ttk.Radiobutton(self.frame, text=name.capitalize(), value=name, variable=self.mode,
+            for name, title in zip(Button.MODES, MODES):
+                ttk.Radiobutton(self.frame, text=_(title), value=name, variable=self.mode,
                                 command=lambda: setattr(button, "mode", self.mode.get())).pack(side="left", padx=self.style.px(4))
         else:
-            ttk.Label(self.frame, text=mode.capitalize()).pack(side="left", padx=self.style.px(6))
+            ttk.Label(self.frame, text=_(MODES[Button.MODES.index(mode)])).pack(side="left", padx=self.style.px(6))
 
     def press(self, button):
         if self.try_to(button.press):
@@ -95,14 +97,14 @@ class Row:
         self.entry = ttk.Entry(self.frame, width=14, justify="right")
         self.entry.insert(0, self.item.text().split()[0])
         self.entry.pack(side="left", padx=6)
-        self.entry.bind("<Return>", lambda _: self.try_to(self.enter))
-        self.entry.bind("<KP_Enter>", lambda _: self.try_to(self.enter))
-        actions = [("Set", self.enter), ("Reset", self.item.reset)]
+        self.entry.bind("<Return>", lambda _event: self.try_to(self.enter))
+        self.entry.bind("<KP_Enter>", lambda _event: self.try_to(self.enter))
+        actions = [(N_("Set"), self.enter), (N_("Reset"), self.item.reset)]
         if self.item.kind != "float":
             actions += [("-", lambda: self.item.step(-1)), ("+", lambda: self.item.step(1))]
         self.buttons = {}
         for name, action in actions:
-            self.buttons[name] = ttk.Button(self.frame, text=name, style="Small.TButton", command=lambda a=action: self.try_to(a))
+            self.buttons[name] = ttk.Button(self.frame, text=_(name), style="Small.TButton", command=lambda a=action: self.try_to(a))
             self.buttons[name].pack(side="left")
 
     def enter(self):
@@ -113,7 +115,7 @@ class Row:
         text = self.item.text()
         if self.item.kind == "bit":
             color = self.style.colours["on" if text == "1" else "pressed"]
-            self.button.configure(text=f"{'ON' if text == '1' else 'OFF'}", bg=color, activebackground=color)
+            self.button.configure(text=_("ON") if text == "1" else _("OFF"), bg=color, activebackground=color)
         else:
             self.value.configure(text=text)
 

@@ -11,12 +11,13 @@ if (here.parent / "lib/python/kerf").is_dir():
 
 from hal import query
 from kerf import tkstyle
+from kerf.language import _
 from kerf.haltools.writable import Item, NotWritable
 
 PIN = "motion.probe-input"
 LOOK_MS = 100           # of a pulse
 POLL_MS = 500
-IDLE, ON, OFF = "Push to simulate\nProbe touch", "ProbeON", "ProbeOFF"
+IDLE, ON, OFF = _("Push to simulate\nProbe touch"), _("ProbeON"), _("ProbeOFF")
 
 
 def find():
@@ -59,7 +60,7 @@ class Window:
         self.button = tk.Button(root, text=IDLE, width=24, height=3)
         self.color = self.button["bg"]
         self.button.pack(padx=style.px(8), pady=style.px(8), fill="both", expand=True)
-        self.check = ttk.Checkbutton(root, text="Pulse", variable=self.pulse,
+        self.check = ttk.Checkbutton(root, text=_("Pulse"), variable=self.pulse,
                                      command=lambda: setattr(probe, "pulse", self.pulse.get()))
         self.check.pack(pady=(0, style.px(6)))
         self.button.bind("<ButtonPress-1>", self.press)

@@ -1,17 +1,29 @@
+"""windows.py: texts that have no room, and unreadable colours, of all small windows.
+
+windows.py untranslated: their texts that come from no catalogue.
+"""
+import re
 import sys
 import tkinter.font
 from pathlib import Path
 from types import SimpleNamespace
 
 sys.path.insert(0, "../../../src/hal/user_comps")
+if "untranslated" in sys.argv:
+    from kerf import language
+    language.catalogue = lambda: SimpleNamespace(gettext=lambda text: "\u00ab" + text.strip() + "\u00bb")
 import hal
 import linuxcnc
+from PIL import Image
 import sim_pin
-from kerf import pickconfig, tkstyle
-from kerf.haltools import latency_view
-from kerf.tktools import debuglevel, emccalib, hal_manualtoolchange, halmeter, halshow, linuxcnctop, mdro, teach_in, tooledit
+import simulate_probe
+from kerf import launch_windows, pickconfig, relief, tkstyle
+from kerf.halscope import acquire, dialogs, screen, settings as scope_settings
+from kerf.haltools import latency_panel, latency_view
+from kerf.tktools import debuglevel, emccalib, hal_manualtoolchange, halmeter, halshow, image_to_gcode, linuxcnctop, mdro, ngcgui, teach_in, tooledit
 from kerf.tktools.calibration import Calibration
 from kerf.tktools.tooltable import Table
+from kerf.language import _
 from kerf.tree import Tree
 from tk_hand import clipped
 
@@ -55,6 +67,33 @@ def histogram(root):
     window.show()
 
 
+def scope(root):
+    settings = scope_settings.Settings()
+    channel = settings.channel(1)
+    channel.kind, channel.name, channel.type, channel.enabled = "pin", "siggen.0.sine", scope_settings.FLOAT, True
+    settings.selected = settings.trigger.source = 1
+    style = tkstyle.apply(root)
+    screen.Screen(root, settings, acquire.Offline(), style)
+    dialogs.RateDialog(root, settings, 32000, True, None, None)
+    dialogs.OffsetDialog(root, 1, channel, None)
+
+
+def latency(root):
+    platform = SimpleNamespace(realtime="POSIX", is_realtime=False, virtual_clock=True, governors=["powersave"], isolated="", doubts=lambda: [])
+    pins = dict.fromkeys(("sl", "sj", "st", "bl", "bj", "bt", "reset"), 0)
+    latency_panel.Window(root, pins, latency_panel.Worst("bs"), {"s": "servo", "b": "base"}, {"s": 1000000, "b": 25000}, platform)
+
+
+def form(root):
+    page = ngcgui.Page(root, tkstyle.apply(root), ngcgui.options(["-S", "pocket.ngc"]))
+    page.frame.pack(fill="both", expand=True)
+    page.create()
+
+
+def probe(root):
+    simulate_probe.Window(root, simulate_probe.Probe(sim_pin.Item("freebit")))
+
+
 component = hal.component("mdro")
 for i in range(3):
     component.newpin(f"index-enable.{i}", hal.HAL_BIT, hal.HAL_IO)
@@ -67,6 +106,9 @@ PROGRAMS = {
     "linuxcnctop": lambda root: linuxcnctop.Window(root, Status()),
     "debuglevel": lambda root: debuglevel.Window(root, Status(), None),
     "teach-in": lambda root: teach_in.Window(root, Status(), sys.stdout),
+    "halscope": scope, "latency-test": latency, "ngcgui": form, "simulate_probe": probe,
+    "errors": lambda root: launch_windows.Errors(root, "t.hal", "machine.ini"),
+    "image-to-gcode": lambda root: image_to_gcode.Window(root, Image.new("L", (40, 30)), "a.png", relief.Settings()),
     "mdro": lambda root: mdro.Window(root, mdro.Readout(list("XYZ"), lambda i: 1.25, "inch"), component, 20),
 }
 
@@ -81,6 +123,29 @@ def contrast(root, a, b):
     return (b + 0.05) / (a + 0.05)
 
 
+def texts(widget):
+    """Whatever the widgets, menus and pages below this one say."""
+    for child in widget.winfo_children():
+        kind = child.winfo_class()
+        if kind == "Menu":
+            yield from (child.entrycget(n, "label") for n in range((child.index("end") or 0) + 1) if child.type(n) not in ("separator", "tearoff"))
+        elif kind == "TNotebook":
+            yield from (child.tab(page, "text") for page in child.tabs())
+        elif kind == "Canvas":
+            yield from (child.itemcget(item, "text") for item in child.find_all() if child.type(item) == "text")
+        elif kind == "Toplevel":
+            yield child.title()
+        elif "text" in child.keys():
+            yield str(child.cget("text"))
+        yield from texts(child)
+
+
+def untranslated(root):
+    """Texts with words that did not pass through a catalogue, as a set."""
+    found = {" ".join(re.sub("\u00ab.*\u00bb", "", text, flags=re.S).split()) for text in [root.title(), *texts(root)]}
+    return {text for text in found if re.search("[a-zA-Z]{2}", text)}
+
+
 for name, make in PROGRAMS.items():
     root = tkstyle.open_display(name, "Test")
     root.report_callback_exception = lambda *what: print("TRACEBACK", what)
@@ -90,12 +155,16 @@ for name, make in PROGRAMS.items():
             window.book.select(page)
         root.update()
         root.update()
-        for text in clipped(root):
+        for text in [] if "untranslated" in sys.argv else clipped(root):
             print(f"{name}: {text}")
+    if "untranslated" in sys.argv:
+        print(f"{name}:", "; ".join(sorted(untranslated(root))))
     root.destroy()
+if "untranslated" in sys.argv:
+    sys.exit()
 root = tkstyle.open_display("letters", "Test")
 style = tkstyle.apply(root)
-print("letters", -tkinter.font.nametofont("TkDefaultFont", root).cget("size"))
+print(_("Cancel") + ":", "letters", -tkinter.font.nametofont("TkDefaultFont", root).cget("size"))
 for back, inks in (("face", ("ink", "bad", "good", "faint")), ("field", ("ink", "pin", "signal", "param", "chart"))):
     for ink in inks:
         if contrast(root, style.colours[ink], style.colours[back]) < (3 if ink == "chart" else 4.5):

@@ -9,6 +9,7 @@ import hal
 import kerf_scope as rt
 
 from .. import clock
+from ..language import _
 from . import settings as st
 
 FUNCTION = "scope.sample"
@@ -82,7 +83,7 @@ class Acquisition:
         if now == thread:
             return
         if not hal.query.thread(thread):
-            raise ScopeError(f"There is no thread '{thread}'.")
+            raise ScopeError(_("There is no thread '%s'.") % thread)
         if now:
             halcmd("delf", FUNCTION, now)
         halcmd("addf", FUNCTION, thread)
@@ -100,7 +101,7 @@ class Acquisition:
         """Begins a new record as soon as an older one is out of the way. ScopeError."""
         numbers = settings.enabled()
         if not numbers:
-            raise ScopeError("You need to choose at least one channel.")
+            raise ScopeError(_("You need to choose at least one channel."))
         length = self.samples // len(numbers)
         pre = min(int(settings.trigger.pos * length), length - 1)
         self._wanted = (settings, numbers, length, pre, settings.run_mode == st.ROLL)
@@ -182,10 +183,10 @@ class Offline:
     samples, idle = st.DEFAULT_SAMPLES, True
 
     def link(self, thread):
-        raise ScopeError("No realtime is running.")
+        raise ScopeError(_("No realtime is running."))
 
     def start(self, settings):
-        raise ScopeError("No realtime is running.")
+        raise ScopeError(_("No realtime is running."))
 
     def period(self, mult):
         return 0

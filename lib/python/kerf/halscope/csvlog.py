@@ -14,6 +14,7 @@ import re
 from array import array
 from dataclasses import dataclass
 
+from ..language import _
 from . import settings as st
 from .configfile import replace_file
 
@@ -55,12 +56,12 @@ def parse(lines):
     lines = [line.rstrip("\r\n") for line in lines]
     first = re.match(r"#\s*Sampling period is (\d+) ns", lines[0]) if lines else None
     if not first or int(first[1]) <= 0:
-        raise LogError("line 1: '# Sampling period is N ns' is missing")
+        raise LogError(_("line 1: '# Sampling period is N ns' is missing"))
     if len(lines) < 2 or not lines[1].strip():
-        raise LogError("line 2: the names of the channels are missing")
+        raise LogError(_("line 2: the names of the channels are missing"))
     names = lines[1].split(";")
     if len(names) > st.CHANNELS:
-        raise LogError(f"line 2: {len(names)} channels, at most {st.CHANNELS} fit")
+        raise LogError(_("line 2: %s channels, at most %s fit") % (len(names), st.CHANNELS))
     log = Log(int(first[1]), names, [array("d") for _ in names], [None] * len(names), [None] * len(names))
     for number, line in enumerate(lines[2:], 3):
         note = re.match(r"#\s*(Position|Scale):(.*)", line)
@@ -70,19 +71,19 @@ def parse(lines):
             try:
                 put[:] = [kind(w) for w in words]
             except ValueError:
-                raise LogError(f"line {number}: bad number in '{line}'") from None
+                raise LogError(_("line %s: bad number in '%s'") % (number, line)) from None
             if len(put) != len(names):
-                raise LogError(f"line {number}: {len(put)} values for {len(names)} channels")
+                raise LogError(_("line %s: %s values for %s channels") % (number, len(put), len(names)))
             continue
         if not line.strip() or line.startswith("#"):
             continue
         words = line.split(";")
         if len(words) != len(names):
-            raise LogError(f"line {number}: {len(words)} values for {len(names)} channels")
+            raise LogError(_("line %s: %s values for %s channels") % (number, len(words), len(names)))
         try:
             row = [float(w) for w in words]
         except ValueError:
-            raise LogError(f"line {number}: bad number in '{line[:60]}'") from None
+            raise LogError(_("line %s: bad number in '%s'") % (number, line[:60])) from None
         for column, value in zip(log.values, row):
             column.append(value)
     return log

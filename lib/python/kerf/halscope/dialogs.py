@@ -4,11 +4,12 @@
 import tkinter as tk
 from tkinter import messagebox, ttk
 
+from ..language import _
 from . import acquire, settings as st
 from .geometry import engineering
 
-NOT_LINKED = "Realtime function not linked"
-RATE = "Select Sample Rate"
+NOT_LINKED = _("Realtime function not linked")
+RATE = _("Select Sample Rate")
 
 
 class RateDialog(tk.Toplevel):
@@ -22,10 +23,10 @@ class RateDialog(tk.Toplevel):
         self._threads = acquire.threads()
         body = ttk.Frame(self, padding=10)
         body.pack(fill="both", expand=True)
-        text = ("The realtime sampling function is in no thread. Choose the thread, the rate\nand the number of samples, then OK."
-                if first else "Choose the thread, the rate and the number of samples.")
+        text = (_("The realtime sampling function is in no thread. Choose the thread, the rate\nand the number of samples, then OK.")
+                if first else _("Choose the thread, the rate and the number of samples."))
         ttk.Label(body, text=text).grid(columnspan=3, sticky="w", pady=(0, 8))
-        ttk.Label(body, text="Thread:").grid(row=1, column=0, sticky="nw")
+        ttk.Label(body, text=_("Thread:")).grid(row=1, column=0, sticky="nw")
         self.list = tk.Listbox(body, height=max(3, min(6, len(self._threads))), width=40, exportselection=False, activestyle="none")
         for name, period in self._threads:
             self.list.insert("end", f"{name}  ({engineering(period * 1e-9, 's')})")
@@ -33,8 +34,8 @@ class RateDialog(tk.Toplevel):
         self.list.bind("<<ListboxSelect>>", lambda _e: self._show())
         self.mult, self.samples = tk.StringVar(value=str(settings.mult)), tk.StringVar(value=str(samples))
         self.period_text, self.rate_text = tk.StringVar(), tk.StringVar()
-        rows = (("Sample Period:", self.period_text, None), ("Sample Rate:", self.rate_text, None),
-                ("Multiplier:", self.mult, (1, st.MAX_MULT, 1)), ("Samples:", self.samples, (st.MIN_SAMPLES, st.MAX_SAMPLES, 1000)))
+        rows = ((_("Sample Period:"), self.period_text, None), (_("Sample Rate:"), self.rate_text, None),
+                (_("Multiplier:"), self.mult, (1, st.MAX_MULT, 1)), (_("Samples:"), self.samples, (st.MIN_SAMPLES, st.MAX_SAMPLES, 1000)))
         for row, (title, variable, limits) in enumerate(rows, 2):
             ttk.Label(body, text=title).grid(row=row, column=0, sticky="w", pady=2)
             if limits:
@@ -43,7 +44,7 @@ class RateDialog(tk.Toplevel):
             else:
                 w = ttk.Label(body, textvariable=variable, font="TkFixedFont")
             w.grid(row=row, column=1, sticky="w", pady=2)
-        frame = ttk.Labelframe(body, text="Record length", padding=6)
+        frame = ttk.Labelframe(body, text=_("Record length"), padding=6)
         frame.grid(row=6, columnspan=3, sticky="ew", pady=(8, 0))
         self.lengths = []
         for n in (1, 2, 4, 8, 16):
@@ -53,7 +54,7 @@ class RateDialog(tk.Toplevel):
         buttons = ttk.Frame(self, padding=10)
         buttons.pack(fill="x")
         ttk.Button(buttons, text="OK", command=self.accept).pack(side="right")
-        ttk.Button(buttons, text="Quit" if first else "Cancel", command=self.refuse).pack(side="right", padx=6)
+        ttk.Button(buttons, text=_("Quit") if first else _("Cancel"), command=self.refuse).pack(side="right", padx=6)
         self.protocol("WM_DELETE_WINDOW", self.refuse)
         self.bind("<Return>", lambda _e: self.accept())
         self.bind("<Escape>", lambda _e: self.refuse())
@@ -80,17 +81,17 @@ class RateDialog(tk.Toplevel):
         self.rate_text.set(engineering(1 / seconds, "Hz") if seconds else "----")
         for n, label in self.lengths:
             each = (samples or 0) // n
-            label.configure(text=f"{n:2d} channel{'s' if n > 1 else ' '}: {each:8d} samples"
+            label.configure(text=_("channels: %2d, samples each: %8d") % (n, each)
                             + (f", {engineering(each * seconds, 's')}" if seconds else ""))
 
     def accept(self):
         name, _period, mult, samples = self._values()
         if not name:
-            messagebox.showerror(self.title(), "Choose a thread." if self._threads else "There are no realtime threads.", parent=self)
+            messagebox.showerror(self.title(), _("Choose a thread.") if self._threads else _("There are no realtime threads."), parent=self)
         elif not mult:
-            messagebox.showerror(self.title(), f"The multiplier must be 1 to {st.MAX_MULT}, the sample period at most 1 s.", parent=self)
+            messagebox.showerror(self.title(), _("The multiplier must be 1 to %s, the sample period at most 1 s.") % st.MAX_MULT, parent=self)
         elif not samples:
-            messagebox.showerror(self.title(), f"Samples must be {st.MIN_SAMPLES} to {st.MAX_SAMPLES}.", parent=self)
+            messagebox.showerror(self.title(), _("Samples must be %s to %s.") % (st.MIN_SAMPLES, st.MAX_SAMPLES), parent=self)
         else:
             self.destroy()
             self._done(name, mult, samples)
@@ -106,20 +107,20 @@ class OffsetDialog(tk.Toplevel):
 
     def __init__(self, master, number, channel, done):
         super().__init__(master)
-        self.title(f"Channel {number} Offset")
+        self.title(_("Channel %s Offset") % number)
         self.transient(master)
         self._done = done
         self.offset, self.ac = tk.StringVar(value=f"{channel.voff:g}"), tk.BooleanVar(value=channel.ac)
         body = ttk.Frame(self, padding=10)
         body.pack(fill="both", expand=True)
-        ttk.Label(body, text=f"Vertical offset of {channel.name}:").grid(columnspan=2, sticky="w")
+        ttk.Label(body, text=_("Vertical offset of %s:") % channel.name).grid(columnspan=2, sticky="w")
         entry = ttk.Entry(body, textvariable=self.offset)
         entry.grid(columnspan=2, sticky="ew", pady=6)
-        ttk.Checkbutton(body, text="AC Coupled", variable=self.ac).grid(columnspan=2, sticky="w")
+        ttk.Checkbutton(body, text=_("AC Coupled"), variable=self.ac).grid(columnspan=2, sticky="w")
         buttons = ttk.Frame(self, padding=10)
         buttons.pack(fill="x")
         ttk.Button(buttons, text="OK", command=self.accept).pack(side="right")
-        ttk.Button(buttons, text="Cancel", command=self.destroy).pack(side="right", padx=6)
+        ttk.Button(buttons, text=_("Cancel"), command=self.destroy).pack(side="right", padx=6)
         self.bind("<Return>", lambda _e: self.accept())
         self.bind("<Escape>", lambda _e: self.destroy())
         entry.focus_set()
@@ -131,7 +132,7 @@ class OffsetDialog(tk.Toplevel):
             if value != value or value in (float("inf"), float("-inf")):
                 raise ValueError
         except ValueError:
-            messagebox.showerror(self.title(), f"'{self.offset.get()}' is not a number.", parent=self)
+            messagebox.showerror(self.title(), _("'%s' is not a number.") % self.offset.get(), parent=self)
             return
         self.destroy()
         self._done(value, self.ac.get())

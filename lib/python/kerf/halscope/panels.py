@@ -4,6 +4,7 @@
 import tkinter as tk
 from tkinter import ttk
 
+from ..language import _
 from . import geometry as geo, settings as st
 from .display import COLOURS, TRIGGER
 
@@ -25,11 +26,11 @@ class _Group(ttk.Labelframe):
 
 class Horizontal(_Group):
     def __init__(self, master, owner, style):
-        super().__init__(master, "Horizontal", owner, style)
-        ttk.Label(self, text="Zoom").grid(row=0, column=0, sticky="w")
+        super().__init__(master, _("Horizontal"), owner, style)
+        ttk.Label(self, text=_("Zoom")).grid(row=0, column=0, sticky="w")
         self.zoom = self.slider(1, st.MAX_ZOOM, self._set_zoom)
         self.zoom.grid(row=0, column=1, sticky="ew", padx=6)
-        ttk.Label(self, text="Pos").grid(row=1, column=0, sticky="w")
+        ttk.Label(self, text=_("Pos")).grid(row=1, column=0, sticky="w")
         self.pos = self.slider(0, 1, self._set_pos)
         self.pos.grid(row=1, column=1, sticky="ew", padx=6)
         self.per_div = ttk.Label(self, width=16, anchor="center")
@@ -54,8 +55,8 @@ class Horizontal(_Group):
         self.zoom.set(s.zoom)
         self.pos.set(s.pos)
         period, length, _trigger = self.owner.frame()
-        self.per_div.configure(text=f"{geo.engineering(self.owner.display.horizontal().per_div, 's')} per div" if period else "----")
-        self.rate.configure(text=f"{length} samples\nat {geo.engineering(1e9 / period, 'Hz') if period else '----'}")
+        self.per_div.configure(text=_("%s per div") % geo.engineering(self.owner.display.horizontal().per_div, 's') if period else "----")
+        self.rate.configure(text=_("%s samples\nat %s") % (length, geo.engineering(1e9 / period, 'Hz') if period else '----'))
         self.progress()
 
     def progress(self):
@@ -74,10 +75,10 @@ class Horizontal(_Group):
 
 class RunMode(_Group):
     def __init__(self, master, owner, style):
-        super().__init__(master, "Run Mode", owner, style)
+        super().__init__(master, _("Run Mode"), owner, style)
         self.mode = tk.IntVar(value=st.STOP)
         self.buttons = []
-        for n, word in enumerate(("Stop", "Normal", "Single", "Roll")):
+        for n, word in enumerate((_("Stop"), _("Normal"), _("Single"), _("Roll"))):
             b = ttk.Radiobutton(self, text=word, value=n, variable=self.mode, command=lambda n=n: owner.set_run_mode(n))
             b.grid(row=n // 2, column=n % 2, sticky="w")
             self.buttons.append(b)
@@ -89,16 +90,16 @@ class RunMode(_Group):
 
 class Trigger(_Group):
     def __init__(self, master, owner, style):
-        super().__init__(master, "Trigger", owner, style)
-        for column, (word, name) in enumerate((("Level", "level"), ("Pos", "pos"))):
+        super().__init__(master, _("Trigger"), owner, style)
+        for column, (word, name) in enumerate(((_("Level"), "level"), (_("Pos"), "pos"))):
             ttk.Label(self, text=word).grid(row=0, column=column, padx=style.px(3))
             scale = self.slider(0, 1, lambda v, name=name: self._set(name, v), orient="vertical", length=style.px(110))
             scale.grid(row=1, column=column, rowspan=5, sticky="ns", padx=style.px(5))
             setattr(self, name, scale)
-        self.source = ttk.Button(self, text="Source", command=owner.ask_trigger_source)
+        self.source = ttk.Button(self, text=_("Source"), command=owner.ask_trigger_source)
         self.mode = ttk.Button(self, command=self._toggle_mode)
         self.edge = ttk.Button(self, command=owner.toggle_edge)
-        self.force = ttk.Button(self, text="Force", command=owner.force)
+        self.force = ttk.Button(self, text=_("Force"), command=owner.force)
         for row, b in enumerate((self.source, self.mode, self.edge, self.force), 1):
             b.grid(row=row, column=2, sticky="ew", padx=(6, 0), pady=1)
         self.text = ttk.Label(self, anchor="w", width=26)
@@ -121,17 +122,17 @@ class Trigger(_Group):
         t = s.trigger
         self.level.set(t.level)
         self.pos.set(t.pos)
-        self.source.configure(text=f"Source: {t.source}" if t.source else "Source: none")
-        self.mode.configure(text="Auto" if t.auto else "Normal")
-        self.edge.configure(text="Rising" if t.rising else "Falling")
-        self.text.configure(text=f"Level {st.trigger_level(s.channel(t.source), t.level):.6g}" if t.source else "No trigger source")
+        self.source.configure(text=_("Source: %s") % t.source if t.source else _("Source: none"))
+        self.mode.configure(text=_("Auto") if t.auto else _("Normal"))
+        self.edge.configure(text=_("Rising") if t.rising else _("Falling"))
+        self.text.configure(text=_("Level %.6g") % st.trigger_level(s.channel(t.source), t.level) if t.source else _("No trigger source"))
 
 
 class Vertical(_Group):
     def __init__(self, master, owner, style):
-        super().__init__(master, "Vertical", owner, style)
-        ttk.Label(self, text="Gain").grid(row=0, column=0, padx=style.px(3))
-        ttk.Label(self, text="Pos").grid(row=0, column=1, padx=style.px(3))
+        super().__init__(master, _("Vertical"), owner, style)
+        ttk.Label(self, text=_("Gain")).grid(row=0, column=0, padx=style.px(3))
+        ttk.Label(self, text=_("Pos")).grid(row=0, column=1, padx=style.px(3))
         self.gain = self.slider(0, 1, self._set_gain, orient="vertical", length=style.px(110))
         self.gain.grid(row=1, column=0, rowspan=4, sticky="ns", padx=style.px(5))
         self.pos = self.slider(0, 1, self._set_pos, orient="vertical", length=style.px(110))
@@ -141,7 +142,7 @@ class Vertical(_Group):
         self.offset = ttk.Button(self, command=owner.ask_offset)
         self.offset.grid(row=2, column=2, sticky="ew", padx=(6, 0))
         self.ac = tk.BooleanVar()
-        self.coupled = ttk.Checkbutton(self, text="AC Coupled", variable=self.ac, command=self._set_ac)
+        self.coupled = ttk.Checkbutton(self, text=_("AC Coupled"), variable=self.ac, command=self._set_ac)
         self.coupled.grid(row=3, column=2, sticky="w", padx=(6, 0))
         self.columnconfigure(2, weight=1)
         self.rowconfigure(4, weight=1)
@@ -170,15 +171,15 @@ class Vertical(_Group):
             w.state(["!disabled" if channel else "disabled"])
         if not channel:
             self.scale.configure(text="----")
-            self.offset.configure(text="Offset")
+            self.offset.configure(text=_("Offset"))
             self.ac.set(False)
             return
         low, high = channel.limits()
         self.gain.configure(from_=low, to=high)
         self.gain.set(channel.vscale)
         self.pos.set(channel.vpos)
-        self.scale.configure(text=f"{st.scale(channel.vscale):g} / div")
-        self.offset.configure(text=f"Offset {channel.voff:.6g}")
+        self.scale.configure(text=_("%g / div") % st.scale(channel.vscale))
+        self.offset.configure(text=_("Offset %.6g") % channel.voff)
         self.ac.set(channel.ac)
 
 
@@ -188,7 +189,7 @@ class Channels(ttk.Frame):
     def __init__(self, master, owner, style):
         super().__init__(master, padding=(0, style.px(4)))
         self.owner, self.style = owner, style
-        ttk.Label(self, text="Selected Channel").pack(side="left")
+        ttk.Label(self, text=_("Selected Channel")).pack(side="left")
         self.name = ttk.Label(self, width=34, anchor="w", cursor="hand2", font="TkFixedFont")
         self.name.pack(side="left", padx=style.px(8), fill="x", expand=True)
         self.buttons = []

@@ -6,7 +6,9 @@ from tkinter import ttk
 
 import hal
 
-TABS = (("pin", "Pins", hal.query.pins), ("sig", "Signals", hal.query.signals), ("param", "Parameters", hal.query.params))
+from ..language import _, N_
+
+TABS = (("pin", N_("Pins"), hal.query.pins), ("sig", N_("Signals"), hal.query.signals), ("param", N_("Parameters"), hal.query.params))
 
 
 class SourcePicker(tk.Toplevel):
@@ -14,11 +16,11 @@ class SourcePicker(tk.Toplevel):
 
     def __init__(self, master, number, current, done):
         super().__init__(master)
-        self.title(f"Select Channel {number} Source")
+        self.title(_("Select Channel %s Source") % number)
         self.transient(master)
         self._done, self._names, self.lists = done, {}, {}
         bar = ttk.Frame(self, padding=6)
-        ttk.Label(bar, text="Filter:").pack(side="left")
+        ttk.Label(bar, text=_("Filter:")).pack(side="left")
         self.filter = tk.StringVar()
         self.filter.trace_add("write", lambda *_: self._fill())
         entry = ttk.Entry(bar, textvariable=self.filter)
@@ -34,12 +36,12 @@ class SourcePicker(tk.Toplevel):
             box.pack(side="left", fill="both", expand=True)
             bar.pack(side="right", fill="y")
             box.bind("<Double-Button-1>", lambda _e: self.accept())
-            self.book.add(page, text=title)
+            self.book.add(page, text=_(title))
             self.lists[kind] = box
         self.book.pack(fill="both", expand=True, padx=6)
         buttons = ttk.Frame(self, padding=6)
         ttk.Button(buttons, text="OK", command=self.accept).pack(side="right")
-        ttk.Button(buttons, text="Cancel", command=self.destroy).pack(side="right", padx=6)
+        ttk.Button(buttons, text=_("Cancel"), command=self.destroy).pack(side="right", padx=6)
         buttons.pack(fill="x")
         self.bind("<Return>", lambda _e: self.accept())
         self.bind("<Escape>", lambda _e: self.destroy())

@@ -10,6 +10,7 @@ from tkinter import filedialog, messagebox, ttk
 import kerf_scope as rt
 
 from .. import tkstyle
+from ..language import _, N_
 from . import acquire, configfile, csvlog, dialogs, panels, settings as st
 from .display import Display
 from .picker import SourcePicker
@@ -17,10 +18,10 @@ from .picker import SourcePicker
 POLL_MS = 50
 LINK_MS = 1000
 SIZE, MINIMUM = (1000, 660), (760, 520)
-STATES = {rt.IDLE: "", rt.INIT: "WAITING FOR THREAD", rt.PRE_TRIG: "PRE-TRIG", rt.TRIG_WAIT: "WAITING FOR TRIGGER",
-          rt.POST_TRIG: "TRIGGERED", rt.DONE: "DONE", rt.RESET: "", rt.ROLL: "ROLL"}
-CONFIG_TYPES = (("Configurations", "*.halscope"), ("All files", "*"))
-LOG_TYPES = (("Log files", "*.csv"), ("All files", "*"))
+STATES = {rt.IDLE: "", rt.INIT: N_("WAITING FOR THREAD"), rt.PRE_TRIG: N_("PRE-TRIG"), rt.TRIG_WAIT: N_("WAITING FOR TRIGGER"),
+          rt.POST_TRIG: N_("TRIGGERED"), rt.DONE: N_("DONE"), rt.RESET: "", rt.ROLL: N_("ROLL")}
+CONFIG_TYPES = ((_("Configurations"), "*.halscope"), (_("All files"), "*"))
+LOG_TYPES = ((_("Log files"), "*.csv"), (_("All files"), "*"))
 
 
 class Screen:
@@ -59,16 +60,16 @@ class Screen:
     def _menus(self):
         bar = tk.Menu(self.root)
         files, help_ = tk.Menu(bar, tearoff=False), tk.Menu(bar, tearoff=False)
-        for label, act in (("Open Configuration...", self.open_configuration), ("Save Configuration...", self.save_configuration), (None, None),
-                           ("Open Log File", self.open_log), ("Save Log File", self.save_log), (None, None), ("Quit", self.quit)):
+        for label, act in ((_("Open Configuration..."), self.open_configuration), (_("Save Configuration..."), self.save_configuration), (None, None),
+                           (_("Open Log File"), self.open_log), (_("Save Log File"), self.save_log), (None, None), (_("Quit"), self.quit)):
             if label:
-                files.add_command(label=label, command=act, accelerator="Ctrl-Q" if label == "Quit" else "")
+                files.add_command(label=label, command=act, accelerator="Ctrl-Q" if act == self.quit else "")
             else:
                 files.add_separator()
-        help_.add_command(label="About Halscope", command=lambda: messagebox.showinfo(
-            "About Halscope", "HAL Oscilloscope\n\nShows pins, signals and parameters of a running HAL over time.", parent=self.root))
-        bar.add_cascade(label="File", menu=files)
-        bar.add_cascade(label="Help", menu=help_)
+        help_.add_command(label=_("About Halscope"), command=lambda: messagebox.showinfo(
+            _("About Halscope"), _("HAL Oscilloscope\n\nShows pins, signals and parameters of a running HAL over time."), parent=self.root))
+        bar.add_cascade(label=_("File"), menu=files)
+        bar.add_cascade(label=_("Help"), menu=help_)
         self.root.configure(menu=bar)
 
     # ---- What the display and the panels ask
@@ -85,8 +86,9 @@ class Screen:
 
     def state_text(self):
         if self.log:
-            return f"LOG {self.log}"
-        return STATES[self.acq.progress()[0]] if self.settings.run_mode != st.STOP else ""
+            return _("LOG %s") % self.log
+        text = STATES[self.acq.progress()[0]] if self.settings.run_mode != st.STOP else ""
+        return _(text) if text else ""
 
     def progress(self):
         return self.acq.progress()
@@ -123,7 +125,7 @@ class Screen:
         s.run_mode = st.STOP
         self.acq.stop()
         if mode != st.STOP and not s.enabled():
-            messagebox.showerror("No channels selected", "You need to choose at least one channel.", parent=self.root)
+            messagebox.showerror(_("No channels selected"), _("You need to choose at least one channel."), parent=self.root)
         elif mode != st.STOP and self._may_overwrite():
             s.run_mode = mode
             try:
@@ -137,7 +139,7 @@ class Screen:
         """Asks before the record of a log file is lost."""
         if self.log is None:
             return True
-        if not messagebox.askyesno("halscope", "Overwrite loaded log file data?", parent=self.root):
+        if not messagebox.askyesno("halscope", _("Overwrite loaded log file data?"), parent=self.root):
             return False
         self.log = self.record = None
         self.settings.forget_log()
@@ -217,7 +219,7 @@ class Screen:
     def set_source(self, number, kind, name):
         found = acquire.source_type(kind, name)
         if not found:
-            messagebox.showerror("halscope", f"There is no {name} any more.", parent=self.root)
+            messagebox.showerror("halscope", _("There is no %s any more.") % name, parent=self.root)
             return
         channel = self.settings.channel(number)
         if (channel.kind, channel.name) != (kind, name):
@@ -233,7 +235,7 @@ class Screen:
     def ask_trigger_source(self):
         """A menu of the channels that can trigger."""
         menu = tk.Menu(self.root, tearoff=False)
-        menu.add_command(label="none", command=lambda: self.set_trigger_source(0))
+        menu.add_command(label=_("none"), command=lambda: self.set_trigger_source(0))
         for n in self.settings.enabled():
             menu.add_command(label=f"{n}: {self.settings.channel(n).name}", command=lambda n=n: self.set_trigger_source(n))
         button = self.trigger.source
@@ -267,9 +269,9 @@ class Screen:
         self.period = self.acq.period(mult)
         if samples != self.acq.samples:
             s.samples = samples
-            messagebox.showinfo("Sample Count Changed - Restart Required",
-                                "The number of samples is saved with the configuration.\nIt is used when the scope is loaded again:\n"
-                                "close halscope, halcmd unloadrt scope_rt, start halscope.", parent=self.root)
+            messagebox.showinfo(_("Sample Count Changed - Restart Required"),
+                                _("The number of samples is saved with the configuration.\nIt is used when the scope is loaded again:\n"
+                                "close halscope, halcmd unloadrt scope_rt, start halscope."), parent=self.root)
         if self.log is None:
             self.record = None
         self.restart()
@@ -280,7 +282,7 @@ class Screen:
         messagebox.showerror("halscope", f"{what}: {getattr(error, 'strerror', None) or error}", parent=self.root)
 
     def open_configuration(self):
-        path = filedialog.askopenfilename(parent=self.root, title="Open Configuration", filetypes=CONFIG_TYPES)
+        path = filedialog.askopenfilename(parent=self.root, title=_("Open Configuration"), filetypes=CONFIG_TYPES)
         if path:
             self.load_configuration(path)
 
@@ -305,7 +307,7 @@ class Screen:
         self.changed()
 
     def save_configuration(self):
-        path = filedialog.asksaveasfilename(parent=self.root, title="Save Configuration", filetypes=CONFIG_TYPES, defaultextension=".halscope")
+        path = filedialog.asksaveasfilename(parent=self.root, title=_("Save Configuration"), filetypes=CONFIG_TYPES, defaultextension=".halscope")
         if path:
             try:
                 configfile.save(path, self.settings)
@@ -313,7 +315,7 @@ class Screen:
                 self._complain(path, e)
 
     def open_log(self):
-        path = filedialog.askopenfilename(parent=self.root, title="Open Log File", filetypes=LOG_TYPES)
+        path = filedialog.askopenfilename(parent=self.root, title=_("Open Log File"), filetypes=LOG_TYPES)
         if path:
             self.load_log(path)
 
@@ -345,9 +347,9 @@ class Screen:
 
     def save_log(self):
         if self.record is None or not self.record.count:
-            messagebox.showerror("halscope", "There is no record to save.", parent=self.root)
+            messagebox.showerror("halscope", _("There is no record to save."), parent=self.root)
             return
-        path = filedialog.asksaveasfilename(parent=self.root, title="Save Log File", filetypes=LOG_TYPES, defaultextension=".csv")
+        path = filedialog.asksaveasfilename(parent=self.root, title=_("Save Log File"), filetypes=LOG_TYPES, defaultextension=".csv")
         if path:
             try:
                 self.write_log(path)

@@ -11,6 +11,7 @@ import math
 import sys
 
 from .. import clock
+from ..language import _
 from .report import Netlist
 from .session import ToolError, halcmd
 
@@ -173,7 +174,7 @@ def show_window(model: PinHistogram, o: argparse.Namespace):
 
     def read(_bins):
         model.read()
-        text = model.summary() + (f"   off chart: - {model.low}  + {model.high}" if o.show else "")
+        text = model.summary() + ("   " + _("off chart: - %d  + %d") % (model.low, model.high) if o.show else "")
         counts = [model.low + model.counts[0], *model.counts[1:-1], model.high + model.counts[-1]] if len(model.counts) > 1 else model.counts
         return [Bars(counts, o.minvalue, o.minvalue + o.nbins * o.binsize, "", text)]
 

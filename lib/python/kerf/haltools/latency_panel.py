@@ -8,9 +8,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from .. import clock
-from .session import Platform
+from .. import clock, tkstyle
+from ..language import _
+from .session import Platform, facts
 
+PERIOD_MS = 100
 ROWS = (("servo", "s"), ("base", "b"))
 
 
@@ -33,7 +35,7 @@ class Worst:
 
 def make_component(hal):
     component = hal.component("lat")
-    for _, letter in ROWS:
+    for _name, letter in ROWS:
         for kind in "ljt":
             component.newpin(letter + kind, hal.HAL_S32, hal.HAL_IN)
     component.newpin("reset", hal.HAL_BIT, hal.HAL_OUT)
@@ -54,46 +56,50 @@ def run_lines(component, worst: Worst, names: dict, seconds: int):
             return
 
 
-def run_window(component, worst: Worst, names: dict, periods: dict, platform: Platform, seconds: int):
-    from tkinter import ttk
+class Window:
+    """component: the pins, by name."""
 
-    from .. import tkstyle
-    root = tkstyle.open_display("latency-test", "Latency-test")
-    style = tkstyle.apply(root)
-    px = style.px
-    root.title("HAL Latency Test")
-    box = ttk.Frame(root, padding=px(10))
-    box.pack(fill="both", expand=True)
-    ttk.Label(box, text="Let this test run for some minutes while the computer works as hard as it will:\n"
-                        "windows are moved, files copied, graphics drawn.", justify="left").grid(row=0, columnspan=4, sticky="w", pady=(0, px(8)))
-    for column, text in enumerate(("", "Max Interval (ns)", "Max Jitter (ns)", "Last interval (ns)")):
-        ttk.Label(box, text=text, anchor="e").grid(row=1, column=column, padx=px(6), sticky="e")
-        box.columnconfigure(column, weight=1)
-    cells = {}
-    for row, letter in enumerate(worst.letters, 2):
-        ttk.Label(box, text=f"{names[letter].capitalize()} thread ({periods[letter] / 1000:g} µs):").grid(row=row, column=0, sticky="w")
-        for column in (1, 2, 3):
-            cells[letter, column] = ttk.Label(box, text="0", width=14, relief="sunken", anchor="e", style="Value.TLabel", padding=px(4))
-            cells[letter, column].grid(row=row, column=column, padx=px(6), pady=px(2), sticky="ew")
-    status = platform.text().split("; ") + platform.doubts()
-    ttk.Label(box, text="\n".join(status), justify="left", wraplength=px(560)).grid(row=8, columnspan=4, sticky="w", pady=px(8))
+    def __init__(self, root, component, worst: Worst, names: dict, periods: dict, platform: Platform):
+        from tkinter import ttk
+        self.root, self.component, self.worst, self.cells = root, component, worst, {}
+        style = tkstyle.apply(root)
+        px = style.px
+        root.title("HAL Latency Test")
+        box = ttk.Frame(root, padding=px(10))
+        box.pack(fill="both", expand=True)
+        ttk.Label(box, text=_("Let this test run for some minutes while the computer works as hard as it will:\n"
+                              "windows are moved, files copied, graphics drawn."), justify="left").grid(row=0, columnspan=4, sticky="w", pady=(0, px(8)))
+        for column, text in enumerate(("", _("Max Interval (ns)"), _("Max Jitter (ns)"), _("Last interval (ns)"))):
+            ttk.Label(box, text=text, anchor="e").grid(row=1, column=column, padx=px(6), sticky="e")
+            box.columnconfigure(column, weight=1)
+        for row, letter in enumerate(worst.letters, 2):
+            ttk.Label(box, text=_("%s thread (%g µs):") % (names[letter].capitalize(), periods[letter] / 1000)).grid(row=row, column=0, sticky="w")
+            for column in (1, 2, 3):
+                cell = self.cells[letter, column] = ttk.Label(box, text="0", width=14, relief="sunken", anchor="e", style="Value.TLabel", padding=px(4))
+                cell.grid(row=row, column=column, padx=px(6), pady=px(2), sticky="ew")
+        ttk.Label(box, text="\n".join(facts(platform) + platform.doubts()), justify="left", wraplength=px(560)).grid(row=8, columnspan=4, sticky="w", pady=px(8))
+        self.button = ttk.Button(box, text=_("Reset Statistics"), command=self.reset)
+        self.button.grid(row=9, columnspan=4)
+        root.after(PERIOD_MS, self.tick)
 
-    def reset():
-        component["reset"] = True
-        worst.reset()
-        root.after(100, lambda: component.__setitem__("reset", False))
+    def reset(self):
+        self.component["reset"] = True
+        self.worst.reset()
+        self.root.after(PERIOD_MS, lambda: self.component.__setitem__("reset", False))
 
-    ttk.Button(box, text="Reset Statistics", command=reset).grid(row=9, columnspan=4)
-
-    def tick():
+    def tick(self):
+        component, worst = self.component, self.worst
         if not component["reset"]:
             worst.update(component)
         for letter in worst.letters:
             for column, value in ((1, worst.interval[letter]), (2, worst.jitter[letter]), (3, component[letter + "t"])):
-                cells[letter, column]["text"] = str(value)
-        root.after(100, tick)
+                self.cells[letter, column]["text"] = str(value)
+        self.root.after(PERIOD_MS, self.tick)
 
-    root.after(100, tick)
+
+def run_window(component, worst: Worst, names: dict, periods: dict, seconds: int):
+    root = tkstyle.open_display("latency-test", "Latency-test")
+    Window(root, component, worst, names, periods, Platform())
     if seconds:
         root.after(seconds * 1000, root.destroy)
     root.mainloop()
@@ -116,7 +122,7 @@ def main(arguments: list[str]) -> int:
         if o.nox:
             run_lines(component, worst, names, o.seconds)
         else:
-            run_window(component, worst, names, periods, Platform(), o.seconds)
+            run_window(component, worst, names, periods, o.seconds)
     except KeyboardInterrupt:
         pass
     finally:

@@ -12,6 +12,8 @@ from pathlib import Path
 from tkinter import filedialog, ttk
 
 from .. import tkstyle
+from ..language import _, N_
+from .session import facts
 
 WIDTH, HEIGHT, MARGIN = 720, 220, 30   # pixels of one chart on a usual screen
 PERIOD_MS = 1000                       # between two looks at the model
@@ -114,10 +116,8 @@ class Histograms:
         """Cells with what decides whether the figures say anything."""
         row = ttk.Frame(self.root)
         row.pack(side="bottom", fill="x")
-        governor = ",".join(platform.governors) or "unknown"
-        cells = ((platform.realtime, platform.is_realtime and not platform.virtual_clock), (f"governor: {governor}", governor == "performance"),
-                 (f"isolcpus: {platform.isolated or 'none'}", bool(platform.isolated)))
-        for text, good in cells:
+        good_facts = (platform.is_realtime and not platform.virtual_clock, platform.governors == ["performance"], bool(platform.isolated))
+        for text, good in zip(facts(platform), good_facts):
             ttk.Label(row, text=text, relief="sunken", padding=self.style.px(3), anchor="center",
                       foreground=self.style.colours["good" if good else "bad"]).pack(side="left", fill="x", expand=True)
 
@@ -129,23 +129,23 @@ class Histograms:
         self.buttons = {}
 
         def button(text, action):
-            self.buttons[text] = ttk.Button(row, text=text, command=action)
+            self.buttons[text] = ttk.Button(row, text=_(text), command=action)
             self.buttons[text].pack(side="left", padx=px(3))
-        button("Reset", self.reset)
-        self.log_box = ttk.Checkbutton(row, text="ylogscale", variable=self.log, command=self.show)
+        button(N_("Reset"), self.reset)
+        self.log_box = ttk.Checkbutton(row, text=_("ylogscale"), variable=self.log, command=self.show)
         self.log_box.pack(side="left", padx=px(6))
-        button("Exit", self.close)
-        self.elapsed = ttk.Label(row, text="Elapsed Time: 0 s")
+        button(N_("Exit"), self.close)
+        self.elapsed = ttk.Label(row, text=_("Elapsed Time: %d s") % 0)
         self.elapsed.pack(side="left", expand=True)
         button("Glxgears", self.start_gears)
         self.gear_count = ttk.Label(row, text="0", width=3)
         self.gear_count.pack(side="left")
-        button("Screenshot", self.screenshot)
+        button(N_("Screenshot"), self.screenshot)
 
     def _choice(self, most):
         row = ttk.Frame(self.root, padding=(self.style.px(6), 0))
         row.pack(side="bottom", fill="x")
-        ttk.Label(row, text="Display +/- bins:").pack(side="left")
+        ttk.Label(row, text=_("Display +/- bins:")).pack(side="left")
         self.bins = tk.IntVar(self.root, most)
         self.radios = {}
         for bins in sorted({b for b in BIN_CHOICES if b < most} | {most}):
@@ -162,7 +162,7 @@ class Histograms:
         for chart, bars in zip(self.charts, self.read(bins)):
             if bars:
                 chart.show(bars, self.log.get())
-        self.elapsed.configure(text=f"Elapsed Time: {int(time.monotonic() - self.start)} s")
+        self.elapsed.configure(text=_("Elapsed Time: %d s") % int(time.monotonic() - self.start))
 
     def tick(self):
         self.show()
@@ -176,7 +176,7 @@ class Histograms:
             self.gears.append(subprocess.Popen([GEARS], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
             self.gear_count.configure(text=str(len(self.gears)))
         else:
-            self.buttons["Glxgears"].configure(state="disabled", text=f"no {GEARS}")
+            self.buttons["Glxgears"].configure(state="disabled", text=_("no %s") % GEARS)
 
     def screenshot(self):
         folder = Path.home() / "Pictures"
@@ -187,10 +187,10 @@ class Histograms:
             from PIL import ImageGrab
             picture = ImageGrab.grab(bbox=box, xdisplay=os.environ.get("DISPLAY"))
         except (ImportError, OSError) as error:
-            self.elapsed.configure(text=f"no picture: {error}")
+            self.elapsed.configure(text=_("no picture: %s") % error)
             return
         name = filedialog.asksaveasfilename(parent=self.root, initialdir=folder if folder.is_dir() else Path.home(), defaultextension=".png",
-                                            initialfile=f"{self.root.title()}.png", filetypes=(("Pictures", "*.png"),))
+                                            initialfile=f"{self.root.title()}.png", filetypes=((_("Pictures"), "*.png"),))
         if name:
             picture.save(name)
 
@@ -225,7 +225,7 @@ def latency_bars(meter, show_tails: bool):
             edge = chosen * t.bin_ns / 1e3
             text = t.line(0)[8:].strip()
             if show_tails:
-                text += f"   off chart: - {low}  + {high}"
+                text += "   " + _("off chart: - %d  + %d") % (low, high)
             found.append(Bars(gathered(whole, chosen), -edge, edge, "us", text))
         return found
     return read
@@ -235,8 +235,8 @@ def show_histograms(meter, o, platform):
     """The window of latency-histogram."""
     root = tkstyle.open_display("latency-histogram", "Latency-histogram")
     processor = next((line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), "")
-    lines = [f"{processor or 'processor'} ({os.cpu_count()}), kernel {platform.kernel}"] + platform.doubts()
-    window = Histograms(root, "latency-histogram", lines, o.text, [f"{t.thread} thread ({t.period_ns} ns)" for t in meter.figures],
+    lines = [_("%s (%s), kernel %s") % (processor or _("processor"), os.cpu_count(), platform.kernel)] + platform.doubts()
+    window = Histograms(root, "latency-histogram", lines, o.text, [_("%s thread (%d ns)") % (t.thread, t.period_ns) for t in meter.figures],
                         latency_bars(meter, o.show), meter.reset, bool(o.logscale), max(t.bins for t in meter.figures), platform)
     run(window, o.seconds)
 
@@ -280,8 +280,8 @@ def show_strips(trace, o, platform, points):
     style = tkstyle.apply(root)
     root.title("latency-plot")
     ttk.Label(root, text=platform.banner(), justify="left", padding=style.px(6)).pack(anchor="w")
-    what = "deviation from" if o.relative else "interval;"
-    strips = {name: Strip(root, style, f"{name} thread: {what} {period} ns", points) for name, period in trace.threads}
+    what = _("%s thread: deviation from %d ns") if o.relative else _("%s thread: interval; %d ns")
+    strips = {name: Strip(root, style, what % (name, period), points) for name, period in trace.threads}
     for strip in strips.values():
         strip.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(2))
     root.update_idletasks()
@@ -290,7 +290,7 @@ def show_strips(trace, o, platform, points):
     def tick():
         trace.sample()
         for name, strip in strips.items():
-            strip.show(trace.values[name], f"last {trace.values[name][-1]} ns, worst deviation {trace.worst[name]} ns")
+            strip.show(trace.values[name], _("last %d ns, worst deviation %d ns") % (trace.values[name][-1], trace.worst[name]))
         if o.points and len(next(iter(trace.values.values()))) >= o.points:
             root.destroy()
         else:

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from .. import clock
+from ..language import _
 from ..tree import Tree
 
 CPU = Path("/sys/devices/system/cpu")
@@ -61,6 +62,12 @@ def _read(path: Path) -> str:
         return ""
 
 
+def facts(platform) -> list[str]:
+    """Kind of realtime, governor and isolated processors of a Platform."""
+    return [_("realtime: %s") % platform.realtime, _("governor: %s") % (",".join(platform.governors) or _("unknown")),
+            _("isolcpus: %s") % (platform.isolated or _("none"))]
+
+
 class Platform:
     """What decides whether a latency measurement says anything: kind of realtime, clock
     governor of the processors, processors kept free of other work."""
@@ -76,25 +83,23 @@ class Platform:
 
     def text(self) -> str:
         """One line."""
-        governor = ",".join(self.governors) or "unknown"
-        return f"realtime: {self.realtime}; governor: {governor}; isolcpus: {self.isolated or 'none'}"
+        return "; ".join(facts(self))
 
     def doubts(self) -> list[str]:
         """Reasons why figures from this run are no measure of the machine; empty: none."""
         found = []
         if self.virtual_clock:
-            found.append("time is simulated: these figures say nothing about latency")
+            found.append(_("time is simulated: these figures say nothing about latency"))
         if not self.is_realtime:
-            found.append(f"no realtime scheduling ({self.realtime}): expect latencies of milliseconds; "
-                         "see 'realtime verify'")
+            found.append(_("no realtime scheduling (%s): expect latencies of milliseconds; see 'realtime verify'") % self.realtime)
         slow = [g for g in self.governors if g not in ("performance",)]
         if slow:
-            found.append(f"processor governor is {','.join(slow)}, not performance")
+            found.append(_("processor governor is %s, not performance") % ",".join(slow))
         if self.is_realtime and not self.isolated and (os.cpu_count() or 1) > 1:
-            found.append("no processor is isolated (isolcpus)")
+            found.append(_("no processor is isolated (isolcpus)"))
         return found
 
     def banner(self) -> str:
         lines = [self.text()]
-        lines += [f"NOT REPRESENTATIVE: {doubt}" for doubt in self.doubts()]
+        lines += [_("NOT REPRESENTATIVE: %s") % doubt for doubt in self.doubts()]
         return "\n".join(lines)

@@ -4,6 +4,8 @@
 import hal
 from hal import query
 
+from ..language import _, N_
+
 KINDS = {hal.HAL_BIT: "bit", hal.HAL_S32: "s32", hal.HAL_U32: "u32", hal.HAL_FLOAT: "float"}
 RANGES = {"s32": (-2**31, 2**31 - 1), "u32": (0, 2**32 - 1)}
 
@@ -22,8 +24,7 @@ class Item:
         try:
             self.kind = KINDS[found["type"]]
         except KeyError:
-            raise NotWritable(f"{name}: a {self.what} of type {found['type'].name} cannot be set here: "
-                              "bit, s32, u32 and float can") from None
+            raise NotWritable(_("%s: a %s of type %s cannot be set here: bit, s32, u32 and float can") % (name, _(self.what), found["type"].name)) from None
         self.start = self.get()
 
     def _find(self):
@@ -31,36 +32,39 @@ class Item:
         if pin := query.pin(name):
             if not pin["signal"]:
                 if pin["dir"] == hal.HAL_OUT:
-                    raise NotWritable(f"{name}: is an output of {pin['comp']}: only its component sets it")
-                return "pin", None, pin
-            return "pin", self._free(pin["signal"], f"{name} is connected to the signal {pin['signal']}, which"), pin
+                    raise NotWritable(_("%s: is an output of %s: only its component sets it") % (name, pin["comp"]))
+                return N_("pin"), None, pin
+            return N_("pin"), self._free(pin["signal"], connected=True), pin
         if param := query.param(name):
             if param["dir"] == hal.HAL_RO:
-                raise NotWritable(f"{name}: the parameter is read-only")
-            return "parameter", None, param
+                raise NotWritable(_("%s: the parameter is read-only") % name)
+            return N_("parameter"), None, param
         if signal := query.signal(name):
-            return "signal", self._free(name, "the signal"), signal
-        raise NotWritable(f"{name}: no such pin, parameter or signal (see: halcmd show)")
+            return N_("signal"), self._free(name), signal
+        raise NotWritable(_("%s: no such pin, parameter or signal (see: halcmd show)") % name)
 
-    def _free(self, signal, subject):
+    def _free(self, signal, connected=False):
         found = query.signal(signal)
         if found["writers"]:
-            raise NotWritable(f"{self.name}: {subject} is written by {found['driver'] or 'a pin'}: disconnect that first "
-                              f"(halcmd unlinkp {found['driver'] or 'PIN'})")
+            driver = found["driver"] or "PIN"
+            if connected:
+                raise NotWritable(_("%s: %s is connected to the signal %s, which is written by %s: disconnect that first (halcmd unlinkp %s)")
+                                  % (self.name, self.name, signal, driver, driver))
+            raise NotWritable(_("%s: the signal is written by %s: disconnect that first (halcmd unlinkp %s)") % (self.name, driver, driver))
         return signal
 
     def get(self):
         """The value now. Raises NotWritable when it is gone."""
         value = hal.get_s(self.signal) if self.signal else hal.get_p(self.name)
         if value is None:
-            raise NotWritable(f"{self.name}: is gone")
+            raise NotWritable(_("%s: is gone") % self.name)
         return value
 
     def set(self, value):
         """Raises NotWritable when the value does not fit or is refused."""
         low, high = RANGES.get(self.kind, (None, None))
         if low is not None and not (low <= value <= high and value == int(value)):
-            raise NotWritable(f"{self.name}: {value} is no {self.kind}: whole numbers {low} to {high}")
+            raise NotWritable(_("%s: %s is no %s: whole numbers %s to %s") % (self.name, value, self.kind, low, high))
         if low is not None:
             value = int(value)
         try:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import kerf_tooltext
 
+from ..language import _
 from ..tree import Tree
 from . import watch
 
@@ -163,7 +164,7 @@ class Calibration:
                     item.set(new)
         except (RuntimeError, ValueError) as error:
             self._restore(before)
-            raise NotPossible(f"[{value.section}]{value.name}: {item.name}: {error}; nothing is changed") from None
+            raise NotPossible(_("[%s]%s: %s: %s; nothing is changed") % (value.section, value.name, item.name, error)) from None
         for value, old in before:
             value.test = old
 
@@ -206,16 +207,16 @@ class Calibration:
     def save(self):
         """The values in HAL go into the file; what was changed, one text each. Raises NotPossible."""
         if self.ini.name.endswith(".ini.expanded"):
-            raise NotPossible(f"{self.ini} is made from another INI file each time the machine starts: values are to be changed in that one "
-                              f"({self.ini.name[:-len('.expanded')]})")
+            raise NotPossible(_("%s is made from another INI file each time the machine starts: values are to be changed in that one (%s)") % (self.ini, self.ini.name[:-len('.expanded')]))
         changes = self.changes()
         for path in {c[0] for c in changes}:
             if not os.access(path, os.W_OK):
-                raise NotPossible(f"{path} is not writable: chmod u+w, or copy the configuration to your own folder")
+                raise NotPossible(_("%s is not writable: chmod u+w, or copy the configuration to your own folder") % path)
         for path in {c[0] for c in changes}:
             lines = lines_of(path)
-            for _, index, line, _ in (c for c in changes if c[0] == path):
-                lines[index] = line
+            for change in changes:
+                if change[0] == path:
+                    lines[change[1]] = change[2]
             try:
                 kerf_tooltext.replace_file(str(path), "".join(lines).encode("latin-1"), True)
             except OSError as error:

@@ -7,12 +7,13 @@ from tkinter import ttk
 import linuxcnc
 
 from .. import tkstyle
+from ..language import _, N_
 from . import controller
 
 POLL_MS = 1000
-FLAGS = (("Configuration *", 0x2), ("Version Numbers *", 0x8), ("NML *", 0x40), ("RCS *", 0x200), ("Task Issue", 0x10), ("Motion Time", 0x80),
-         ("Interpreter", 0x100), ("Interpreter List", 0x800), ("State Tags", 0x80000))
-KNOWN = sum(bit for _, bit in FLAGS)
+FLAGS = ((N_("Configuration *"), 0x2), (N_("Version Numbers *"), 0x8), ("NML *", 0x40), ("RCS *", 0x200), (N_("Task Issue"), 0x10), (N_("Motion Time"), 0x80),
+         (N_("Interpreter"), 0x100), (N_("Interpreter List"), 0x800), (N_("State Tags"), 0x80000))
+KNOWN = sum(flag[1] for flag in FLAGS)
 
 
 class Window:
@@ -25,10 +26,10 @@ class Window:
         self.boxes = []
         for text, bit in FLAGS:
             variable = tk.BooleanVar(root)
-            button = ttk.Checkbutton(box, text=text, variable=variable, command=self.send)
+            button = ttk.Checkbutton(box, text=_(text), variable=variable, command=self.send)
             button.pack(fill="x")
             self.boxes.append((bit, variable, button))
-        ttk.Label(box, text="* only effective in the INI file", style="Faint.TLabel").pack(fill="x", pady=(style.px(6), 0))
+        ttk.Label(box, text=_("* only effective in the INI file"), style="Faint.TLabel").pack(fill="x", pady=(style.px(6), 0))
         self.label = ttk.Label(box, style="Value.TLabel")
         self.label.pack(fill="x", pady=(style.px(6), 0))
         root.minsize(style.px(240), 1)
@@ -37,7 +38,7 @@ class Window:
 
     def value(self):
         """The boxes, and the bits that have none."""
-        return (self.stat.debug & ~KNOWN) | sum(bit for bit, variable, _ in self.boxes if variable.get())
+        return (self.stat.debug & ~KNOWN) | sum(bit for bit, variable, _button in self.boxes if variable.get())
 
     def send(self):
         self.command.debug(self.value())
@@ -47,7 +48,7 @@ class Window:
     def look(self):
         self.stat.poll()
         self.label.configure(text="[EMC]DEBUG=0x%08x" % (self.stat.debug & 0xFFFFFFFF))
-        for bit, variable, _ in self.boxes:
+        for bit, variable, _button in self.boxes:
             variable.set(bool(self.stat.debug & bit))
 
     def tick(self):

@@ -7,6 +7,7 @@ from pathlib import Path
 from tkinter import messagebox, ttk
 
 from .. import tkstyle
+from ..language import _, N_
 from .calibration import SUPPORTED, Calibration, NotPossible
 from .widgets import Scrolled
 
@@ -25,12 +26,12 @@ class Tab:
         buttons = ttk.Frame(page)
         buttons.pack(side="bottom", pady=(px(8), 0))
         self.buttons = {}
-        for name, action in (("OK", self.ok), ("Test", self.test), ("Cancel", self.cancel), ("Refresh", self.refresh)):
-            self.buttons[name] = ttk.Button(buttons, text=name, command=action)
+        for name, action in (("OK", self.ok), (N_("Test"), self.test), (N_("Cancel"), self.cancel), (N_("Refresh"), self.refresh)):
+            self.buttons[name] = ttk.Button(buttons, text=_(name), command=action)
             self.buttons[name].pack(side="left", padx=px(4))
         table = self.table = Scrolled(page, window.style)
         table.pack(fill="both", expand=True)
-        for column, title in enumerate(("INI Name", "HAL's Value", "Next Value")):
+        for column, title in enumerate((_("INI Name"), _("HAL's Value"), _("Next Value"))):
             ttk.Label(table.inner, text=title, anchor="w" if column == 0 else "e").grid(row=0, column=column, sticky="ew", padx=px(6), pady=px(4))
             table.inner.columnconfigure(column, weight=1)
         self.labels, self.entries = [], []
@@ -83,19 +84,19 @@ class Tab:
             return
         self.swap()
         self.arrange(TESTING)
-        self.window.say(f"[{self.section}]: the new values are at work: OK keeps them, Cancel takes them back")
+        self.window.say(_("[%s]: the new values are at work: OK keeps them, Cancel takes them back") % self.section)
 
     def ok(self):
         for row, value in enumerate(self.values):
             self.labels[row].configure(text=value.text())
             self.next(row, value.text())
         self.arrange(EDIT)
-        self.window.say(f"[{self.section}]: kept until the machine ends; Save To File writes them into the INI file")
+        self.window.say(_("[%s]: kept until the machine ends; Save To File writes them into the INI file") % self.section)
 
     def cancel(self):
         try:
             self.window.model.cancel(self.values)
-            self.window.say(f"[{self.section}]: the old values are back")
+            self.window.say(_("[%s]: the old values are back") % self.section)
         except NotPossible as error:
             self.window.say(str(error), True)
         self.swap()
@@ -111,9 +112,9 @@ class Window:
         self.status.pack(side="bottom", fill="x")
         bottom = ttk.Frame(root, padding=style.px(8))
         bottom.pack(side="bottom", fill="x")
-        self.save_button = ttk.Button(bottom, text="Save To File", command=self.save)
+        self.save_button = ttk.Button(bottom, text=_("Save To File"), command=self.save)
         self.save_button.pack(side="left", expand=True)
-        self.quit_button = ttk.Button(bottom, text="Quit", command=self.quit)
+        self.quit_button = ttk.Button(bottom, text=_("Quit"), command=self.quit)
         self.quit_button.pack(side="left", expand=True)
         self.book = ttk.Notebook(root)
         self.book.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(4))
@@ -134,7 +135,7 @@ class Window:
         except (NotPossible, OSError) as error:
             messagebox.showerror(TITLE, str(error), parent=self.root)
             return False
-        self.say(f"Saved {self.model.ini.name}: {'; '.join(changed)}" if changed else "The INI file has these values already")
+        self.say(_("Saved %s: %s") % (self.model.ini.name, '; '.join(changed)) if changed else _("The INI file has these values already"))
         return True
 
     def quit(self):
@@ -144,7 +145,7 @@ class Window:
         except OSError:
             changes = []
         if changes:
-            answer = messagebox.askyesnocancel(TITLE, "Values in use differ from the INI file:\n" + "\n".join(changes) + "\n\nSave them?", parent=self.root)
+            answer = messagebox.askyesnocancel(TITLE, _("Values in use differ from the INI file:\n%s\n\nSave them?") % "\n".join(changes), parent=self.root)
             if answer is None or (answer and not self.save()):
                 return
         self.root.destroy()
@@ -177,8 +178,7 @@ def main(arguments):
     if not model.sections:
         tkstyle.apply(root)
         root.withdraw()
-        text = ("No HAL file of this machine sets a pin from a section for tuning:\n    setp PIN [SECTION]NAME\n"
-                f"Sections: {', '.join(SUPPORTED)}")
+        text = (_("No HAL file of this machine sets a pin from a section for tuning:\n    setp PIN [SECTION]NAME\nSections: %s") % (', '.join(SUPPORTED),))
         print(f"emccalib: {ini}: {text}", file=sys.stderr)
         messagebox.showinfo(TITLE, text)
         return 1

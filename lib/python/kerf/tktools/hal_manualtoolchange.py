@@ -97,7 +97,7 @@ class Window:
     def __init__(self, root, exchange):
         self.root, self.exchange, self.dialog, self.shown_s = root, exchange, None, 0.0
         style = self.style = tkstyle.apply(root)
-        root.title("AXIS Manual Toolchanger")
+        root.title(_("AXIS Manual Toolchanger"))
         root.geometry("-60-60")
         ttk.Label(root, text=_("This window watches for tool changes.\nIt hides by itself."), padding=style.px(20)).pack()
         root.protocol("WM_DELETE_WINDOW", root.withdraw)

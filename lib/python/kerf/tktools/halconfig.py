@@ -6,12 +6,13 @@ import tkinter as tk
 from tkinter import messagebox, ttk
 
 from .. import tkstyle
+from ..language import _, N_
 from . import halshow
 
-TITLE = "HAL Configuration"
-QUESTION = "What is to be kept of HAL as it is now?"
+TITLE = _("HAL Configuration")
+QUESTION = _("What is to be kept of HAL as it is now?")
 KINDS = {"all": "all", "net": "netl"}       # what halcmd saves: everything; signals with their pins
-FILE_TYPES = (("HAL files", "*.hal"), ("All files", "*"))
+FILE_TYPES = ((_("HAL files"), "*.hal"), (_("All files"), "*"))
 
 
 class Window(halshow.Window):
@@ -23,24 +24,24 @@ class Window(halshow.Window):
         root.title(TITLE)
         self.book.tab(self.settings.scroll, state="hidden")
         page = self.modify = ttk.Frame(self.book, padding=self.style.px(12))
-        ttk.Label(page, text="Commands of halcmd go into the line below: setp, net, addf and others.\nWhat they print is on the page SHOW.",
+        ttk.Label(page, text=_("Commands of halcmd go into the line below: setp, net, addf and others.\nWhat they print is on the page SHOW."),
                   justify="left", wraplength=self.style.px(420)).pack(anchor="w")
-        self.book.add(page, text=" MODIFY ")
+        self.book.add(page, text=_(" MODIFY "))
 
     def _menus(self):
         bar = tk.Menu(self.root)
         self.root.configure(menu=bar)
         self.menus = {}
-        expand = (("Expand All", self.expand), ("Collapse All", self.collapse), ("Expand Pins", lambda: self.expand("pin")),
-                  ("Expand Parameters", lambda: self.expand("param")), ("Expand Signals", lambda: self.expand("sig")))
+        expand = ((N_("Expand All"), self.expand), (N_("Collapse All"), self.collapse), (N_("Expand Pins"), lambda: self.expand("pin")),
+                  (N_("Expand Parameters"), lambda: self.expand("param")), (N_("Expand Signals"), lambda: self.expand("sig")))
         for title, entries in (
-                ("File", (("Refresh", self.reload_tree), ("Save", lambda: self.save_hal("all")), ("Save INI Tuning", None), ("Save HAL Ini", None),
-                          ("Save HAL Net", lambda: self.save_hal("net")), ("Save and Exit", self.save_and_exit), ("Exit", self.exit))),
-                ("View", expand), ("Help", (("About...", self.about),))):
+                (N_("File"), ((N_("Refresh"), self.reload_tree), (N_("Save"), lambda: self.save_hal("all")), (N_("Save INI Tuning"), None), (N_("Save HAL Ini"), None),
+                          (N_("Save HAL Net"), lambda: self.save_hal("net")), (N_("Save and Exit"), self.save_and_exit), (N_("Exit"), self.exit))),
+                (N_("View"), expand), (N_("Help"), ((N_("About..."), self.about),))):
             menu = self.menus[title] = tk.Menu(bar, tearoff=False)
-            bar.add_cascade(label=title, menu=menu, underline=0)
+            bar.add_cascade(label=_(title), menu=menu, underline=0)
             for label, action in entries:
-                menu.add_command(label=label, command=action or (lambda: None), state="normal" if action else "disabled")
+                menu.add_command(label=_(label), command=action or (lambda: None), state="normal" if action else "disabled")
 
     @property
     def mode(self):
@@ -48,11 +49,11 @@ class Window(halshow.Window):
         return "watchhal" if self.book.index("current") == 1 else "showhal"
 
     def about(self):
-        messagebox.showinfo(TITLE, f"{TITLE}\nhalshow has watch lists with files, and settings.", parent=self.root)
+        messagebox.showinfo(TITLE, _("%s\nhalshow has watch lists with files, and settings.") % TITLE, parent=self.root)
 
     def save_hal(self, kind):
         """True when a file has been written."""
-        path = self.ask_file.asksaveasfilename(parent=self.root, title="Save", filetypes=FILE_TYPES, defaultextension=".hal")
+        path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save"), filetypes=FILE_TYPES, defaultextension=".hal")
         if not path or self.hal("save", KINDS[kind], f"{path}.new") is None:
             return False
         try:
@@ -60,7 +61,7 @@ class Window(halshow.Window):
         except OSError as error:
             self.say(f"{path}: {error.strerror}", True)
             return False
-        self.say(f"Saved {path}")
+        self.say(_("Saved %s") % path)
         return True
 
     def save_and_exit(self):
@@ -89,8 +90,8 @@ class Window(halshow.Window):
             if kind == "leave" or (kind != "stay" and self.save_hal(kind)):
                 self.leave()
         self.answer_buttons = {}
-        for text, kind in (("Save All", "all"), ("Save Tune", ""), ("Save as Netlist", "net"), ("Don't Save", "leave"), ("Cancel", "stay")):
-            button = self.answer_buttons[text] = ttk.Button(row, text=text, command=lambda k=kind: answer(k), state="normal" if kind else "disabled")
+        for text, kind in ((N_("Save All"), "all"), (N_("Save Tune"), ""), (N_("Save as Netlist"), "net"), (N_("Don't Save"), "leave"), (N_("Cancel"), "stay")):
+            button = self.answer_buttons[text] = ttk.Button(row, text=_(text), command=lambda k=kind: answer(k), state="normal" if kind else "disabled")
             button.pack(side="left", padx=px(3))
         top.bind("<Escape>", lambda event: top.destroy())
 

@@ -11,6 +11,7 @@ import hal
 from hal import query
 
 from .. import tkstyle
+from ..language import _, N_
 from .watch import Item
 
 PERIOD_MS = 100
@@ -87,8 +88,8 @@ class Window:
             buttons = ttk.Frame(root)
             buttons.pack(side="bottom", fill="x")
             self.buttons = {}
-            for text, action in (("Select", self.select), ("Exit", self.exit)):
-                self.buttons[text] = ttk.Button(buttons, text=text, command=action, padding=(px(4), px(1)))
+            for text, action in ((N_("Select"), self.select), (N_("Exit"), self.exit)):
+                self.buttons[text] = ttk.Button(buttons, text=_(text), command=action, padding=(px(4), px(1)))
                 self.buttons[text].pack(side="left", expand=True, fill="x")
             self.label.pack(side="bottom", fill="x")
             self.value.pack(fill="both", expand=True)
@@ -146,12 +147,12 @@ class Chooser:
         self.meter, style = meter, meter.style
         px = style.px
         window = self.window = tk.Toplevel(meter.root)
-        window.title("Select Item to Probe")
+        window.title(_("Select Item to Probe"))
         window.attributes("-topmost", True)
-        ttk.Button(window, text="Close", command=window.destroy).pack(side="bottom", pady=px(6))
+        ttk.Button(window, text=_("Close"), command=window.destroy).pack(side="bottom", pady=px(6))
         row = ttk.Frame(window, padding=px(4))
         row.pack(side="bottom", fill="x")
-        ttk.Label(row, text="Find:").pack(side="left")
+        ttk.Label(row, text=_("Find:")).pack(side="left")
         self.find = ttk.Entry(row)
         self.find.pack(side="left", fill="x", expand=True, padx=px(4))
         self.find.bind("<KeyRelease>", lambda event: self.fill())
@@ -159,7 +160,7 @@ class Chooser:
         self.book.pack(fill="both", expand=True, padx=px(4), pady=px(4))
         self.names = {"pin": list(query.pins()), "sig": list(query.signals()), "param": list(query.params())}
         self.lists = {}
-        for kind, title in (("pin", "Pins"), ("sig", "Signals"), ("param", "Parameters")):
+        for kind, title in (("pin", N_("Pins")), ("sig", N_("Signals")), ("param", N_("Parameters"))):
             page = ttk.Frame(self.book)
             box = self.lists[kind] = tk.Listbox(page, exportselection=False, activestyle="none", relief="flat", font="TkDefaultFont")
             bar = ttk.Scrollbar(page, command=box.yview)
@@ -167,7 +168,7 @@ class Chooser:
             bar.pack(side="right", fill="y")
             box.pack(fill="both", expand=True)
             box.bind("<<ListboxSelect>>", lambda event, k=kind: self.chosen(k))
-            self.book.add(page, text=title)
+            self.book.add(page, text=_(title))
         self.fill()
         tkstyle.centre(window, px(340), px(440), (px(200), px(200)))
         window.bind("<Escape>", lambda event: window.destroy())

@@ -10,6 +10,7 @@ from pathlib import Path
 from tkinter import filedialog, simpledialog, ttk
 
 from .. import instance, tkstyle
+from ..language import _, N_
 from ..tree import Tree
 from . import haltree, tclprefs, watch
 from .watchview import WatchView
@@ -18,9 +19,10 @@ SIZE, MINIMUM = (700, 475), (230, 240)
 LEFT_SHARE = 0.3
 STRIP = 26
 DEFAULTS = {"watchInterval": 100, "col1_width": 100, "ffmts": "", "ifmts": "", "alwaysOnTop": 0, "autoSaveWatchlist": 1, "separateParams": 0}
-START_TEXT = "Commands may be tested here but they will NOT be saved"
+START_TEXT = _("Commands may be tested here but they will NOT be saved")
+ADDING = {"pin": N_("Add pin"), "sig": N_("Add signal"), "param": N_("Add parameter")}
 MODES = ("showhal", "watchhal", "settings")
-FILE_TYPES = (("Watch lists", "*.halshow"), ("All files", "*"))
+FILE_TYPES = ((_("Watch lists"), "*.halshow"), (_("All files"), "*"))
 USAGE = """Usage: halshow [--help] [--fformat FORMAT] [--iformat FORMAT] [--noprefs] [WATCHFILE]
   --fformat FORMAT   how numbers are shown (a format of Tcl, for example %.3f)
   --iformat FORMAT   how s32 and u32 are shown (for example 0x%08X)
@@ -142,19 +144,19 @@ class Window:
         self.root.configure(menu=bar)
         self.menus = {}
         for title, tearoff, entries in (
-                ("File", True, (("Load Watch List", self.load_dialog), ("Save Watch List", lambda: self.save_dialog(False)),
-                                ("Save Watch List (multiline)", lambda: self.save_dialog(True)), None, ("Exit", self.exit))),
-                ("Tree View", False, (("Expand All", self.expand), ("Collapse All", self.collapse), ("Expand Pins", lambda: self.expand("pin")),
-                                      ("Expand Parameters", lambda: self.expand("param")), ("Expand Signals", lambda: self.expand("sig")), None,
-                                      ("Reload tree view", self.reload_tree))),
-                ("Watch", False, (("Add pin", lambda: self.add_dialog("pin")), ("Add signal", lambda: self.add_dialog("sig")),
-                                  ("Add parameter", lambda: self.add_dialog("param")), ("Add from HAL text", self.text_dialog), None,
-                                  ("Reload Watch", lambda: self.view.layout()), ("Erase Watch", self.erase)))):
+                (N_("File"), True, ((N_("Load Watch List"), self.load_dialog), (N_("Save Watch List"), lambda: self.save_dialog(False)),
+                                (N_("Save Watch List (multiline)"), lambda: self.save_dialog(True)), None, (N_("Exit"), self.exit))),
+                (N_("Tree View"), False, ((N_("Expand All"), self.expand), (N_("Collapse All"), self.collapse), (N_("Expand Pins"), lambda: self.expand("pin")),
+                                      (N_("Expand Parameters"), lambda: self.expand("param")), (N_("Expand Signals"), lambda: self.expand("sig")), None,
+                                      (N_("Reload tree view"), self.reload_tree))),
+                (N_("Watch"), False, ((ADDING["pin"], lambda: self.add_dialog("pin")), (ADDING["sig"], lambda: self.add_dialog("sig")),
+                                  (ADDING["param"], lambda: self.add_dialog("param")), (N_("Add from HAL text"), self.text_dialog), None,
+                                  (N_("Reload Watch"), lambda: self.view.layout()), (N_("Erase Watch"), self.erase)))):
             menu = self.menus[title] = tk.Menu(bar, tearoff=tearoff)
-            bar.add_cascade(label=title, menu=menu, underline=0)
+            bar.add_cascade(label=_(title), menu=menu, underline=0)
             for entry in entries:
                 if entry:
-                    menu.add_command(label=entry[0], command=entry[1])
+                    menu.add_command(label=_(entry[0]), command=entry[1])
                 else:
                     menu.add_separator()
 
@@ -172,7 +174,7 @@ class Window:
         top.pack(fill="x")
         self.whole = tk.BooleanVar(self.root, False)
         self.tree_box = ttk.Frame(self.left)
-        self.whole_box = ttk.Checkbutton(self.left, text="Full path (regex)", variable=self.whole, command=self.apply_filter)
+        self.whole_box = ttk.Checkbutton(self.left, text=_("Full path (regex)"), variable=self.whole, command=self.apply_filter)
         self.whole_box.pack(anchor="w", padx=px(2))
         self.tree_box.pack(fill="both", expand=True)
         self.tree = ttk.Treeview(self.tree_box, show="tree", selectmode="extended")
@@ -193,8 +195,8 @@ class Window:
         self.panes.add(right, weight=1)
         command = ttk.Frame(right, padding=px(4))
         command.pack(side="bottom", fill="x")
-        ttk.Label(command, text="HAL command :").pack(side="left")
-        self.execute_button = ttk.Button(command, text="Execute", command=self.execute)
+        ttk.Label(command, text=_("HAL command :")).pack(side="left")
+        self.execute_button = ttk.Button(command, text=_("Execute"), command=self.execute)
         self.execute_button.pack(side="right")
         self.command = ttk.Entry(command, font="TkFixedFont")
         self.command.pack(side="left", fill="x", expand=True, padx=px(4))
@@ -215,7 +217,7 @@ class Window:
         self.text_menu = tk.Menu(self.root, tearoff=False)
         self.view = WatchView(self.book, self.style, self.formats, self.say, self.show_in_tree, self, px(self.prefs.integer("col1_width", 20)) / self.style.scale)
         self.settings = Settings(self.book, self)
-        for page, title in ((box, " SHOW "), (self.view, " WATCH "), (self.settings.scroll, " SETTINGS ")):
+        for page, title in ((box, _(" SHOW ")), (self.view, _(" WATCH ")), (self.settings.scroll, _(" SETTINGS "))):
             self.book.add(page, text=title)
 
     def say(self, text, bad=False):
@@ -269,7 +271,7 @@ class Window:
 
     def reload_tree(self):
         self.load_tree()
-        self.say("The tree shows HAL as it is now")
+        self.say(_("The tree shows HAL as it is now"))
 
     def expand(self, kind=None):
         root = "pin" if kind == "param" and not self.separate else kind
@@ -291,7 +293,7 @@ class Window:
         try:
             found = haltree.matching(self.tree_nodes, pattern, self.whole.get())
         except re.error as error:
-            self.say(f"filter: {error}: in a regular expression . matches any character, \\. a dot", True)
+            self.say(_("filter: %s: in a regular expression . matches any character, \\. a dot") % error, True)
             return
         for id_ in found:
             parent = self.tree.parent(id_)
@@ -301,7 +303,7 @@ class Window:
         self.tree.selection_set(*found)
         if found:
             self.tree.see(found[0])
-        self.say(f"{len(found)} found")
+        self.say(_("%d found") % len(found))
 
     def tree_click(self, event):
         if self.tree.identify_region(event.x, event.y) == "tree" and "indicator" not in self.tree.identify_element(event.x, event.y):
@@ -326,7 +328,7 @@ class Window:
         id_ = self.tree.identify_row(event.y)
         self.tree_menu.delete(0, "end")
         items = [w for w in haltree.leaves(self.tree_nodes, id_) if w[0] in watch.KINDS] if id_ else []
-        self.tree_menu.add_command(label="Add all sub-items to watch", state="normal" if items else "disabled",
+        self.tree_menu.add_command(label=_("Add all sub-items to watch"), state="normal" if items else "disabled",
                                    command=lambda: self.add_words(f"{kind}+{name}" for kind, name in items))
         self.tree_menu.tk_popup(event.x_root, event.y_root)
 
@@ -369,7 +371,7 @@ class Window:
         if text is None:
             return
         self.command.delete(0, "end")
-        self.say(f"Done: {line}")
+        self.say(_("Done: %s") % line)
         if text.strip():
             self.book.select(0)
             self.show_text(text)
@@ -408,9 +410,9 @@ class Window:
         text, menu = self.selection(), self.text_menu
         state = "normal" if text.strip() else "disabled"
         menu.delete(0, "end")
-        menu.add_command(label="Copy", state=state, command=self.copy_selection)
-        for label, kind in (("Add as Pin(s)", "pin"), ("Add as Signal(s)", "sig"), ("Add as Param(s)", "param")):
-            menu.add_command(label=label, state=state, command=lambda k=kind: self.add_words(f"{k}+{name}" for name in text.split()))
+        menu.add_command(label=_("Copy"), state=state, command=self.copy_selection)
+        for label, kind in ((N_("Add as Pin(s)"), "pin"), (N_("Add as Signal(s)"), "sig"), (N_("Add as Param(s)"), "param")):
+            menu.add_command(label=_(label), state=state, command=lambda k=kind: self.add_words(f"{k}+{name}" for name in text.split()))
         menu.tk_popup(event.x_root, event.y_root)
 
     # -- WATCH --------------------------------------------------------------------------
@@ -435,13 +437,12 @@ class Window:
         if items:
             self.view.show([(r.item.kind, r.item.name) for r in self.view.rows] + items)
         if unknown:
-            self.say(f"Not in HAL: {', '.join(unknown)}", True)
+            self.say(_("Not in HAL: %s") % (', '.join(unknown),), True)
         elif items:
-            self.say(f"{len(items)} added to the watch list")
+            self.say(_("%d added to the watch list") % len(items))
 
     def add_dialog(self, kind):
-        label = {"pin": "pin", "sig": "signal", "param": "parameter"}[kind]
-        text = self.ask_name(f"Add {label}", f"Name of the {label} (several: with blanks between)", parent=self.root)
+        text = self.ask_name(_(ADDING[kind]), _("Name (several: with blanks between)"), parent=self.root)
         if text and text.strip():
             self.book.select(self.view)
             self.add_words(f"{kind}+{name}" for name in text.split())
@@ -449,9 +450,9 @@ class Window:
     def text_dialog(self):
         """Lines of HAL files."""
         window = tk.Toplevel(self.root)
-        window.title("Add from HAL text")
+        window.title(_("Add from HAL text"))
         window.transient(self.root)
-        ttk.Label(window, text="Lines: net SIGNAL PIN..., setp NAME VALUE, or names of pins", padding=self.style.px(6)).pack(fill="x")
+        ttk.Label(window, text=_("Lines: net SIGNAL PIN..., setp NAME VALUE, or names of pins"), padding=self.style.px(6)).pack(fill="x")
         text = self.dialog_text = tk.Text(window, width=60, height=12)
         bar = ttk.Frame(window, padding=self.style.px(6))
 
@@ -460,25 +461,25 @@ class Window:
             window.destroy()
             self.book.select(self.view)
             self.add_words(words)
-        self.dialog_add = ttk.Button(bar, text="Add", command=add)
+        self.dialog_add = ttk.Button(bar, text=_("Add"), command=add)
         self.dialog_add.pack(side="right")
-        ttk.Button(bar, text="Cancel", command=window.destroy).pack(side="right", padx=self.style.px(6))
+        ttk.Button(bar, text=_("Cancel"), command=window.destroy).pack(side="right", padx=self.style.px(6))
         bar.pack(side="bottom", fill="x")
         text.pack(fill="both", expand=True)
         window.bind("<Escape>", lambda event: window.destroy())
         text.focus_set()
 
     def menu_elsewhere(self, menu):
-        menu.add_command(label="Add from clipboard", command=self.add_clipboard)
-        menu.add_command(label="Add from HAL text", command=self.text_dialog)
+        menu.add_command(label=_("Add from clipboard"), command=self.add_clipboard)
+        menu.add_command(label=_("Add from HAL text"), command=self.text_dialog)
         menu.add_separator()
-        menu.add_command(label="Erase Watch", command=self.erase)
+        menu.add_command(label=_("Erase Watch"), command=self.erase)
 
     def add_clipboard(self):
         try:
             text = self.root.clipboard_get()
         except tk.TclError:
-            self.say("The clipboard is empty", True)
+            self.say(_("The clipboard is empty"), True)
             return
         words = text.split()
         self.add_words(words if all(w.split("+")[0] in watch.KINDS and "+" in w for w in words) else watch.from_hal_text(text))
@@ -487,7 +488,7 @@ class Window:
         self.view.show([])
         self.file = None
         self.root.title("Halshow")
-        self.say("The watch list is empty")
+        self.say(_("The watch list is empty"))
 
     def load(self, path):
         """A file replaces the list; the old one is kept beside it."""
@@ -502,7 +503,7 @@ class Window:
             except OSError as error:
                 self.say(f"{watch.BACKUP}: {error.strerror}", True)
         self.view.show([])
-        self.say(f"Loaded {path}")
+        self.say(_("Loaded %s") % path)
         self.add_words(words, keep=True)
         self.named(path)
         self.book.select(self.view)
@@ -514,19 +515,19 @@ class Window:
             self.say(f"{path}: {error.strerror}", True)
             return
         self.named(path)
-        self.say(f"Saved {path}")
+        self.say(_("Saved %s") % path)
 
     def named(self, path):
         self.file = Path(path)
         self.root.title(f"{self.file.name} - Halshow")
 
     def load_dialog(self):
-        path = self.ask_file.askopenfilename(parent=self.root, title="Load Watch List", filetypes=FILE_TYPES)
+        path = self.ask_file.askopenfilename(parent=self.root, title=_("Load Watch List"), filetypes=FILE_TYPES)
         if path:
             self.load(path)
 
     def save_dialog(self, multiline):
-        path = self.ask_file.asksaveasfilename(parent=self.root, title="Save Watch List", filetypes=FILE_TYPES, defaultextension=".halshow",
+        path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save Watch List"), filetypes=FILE_TYPES, defaultextension=".halshow",
                                                initialfile=self.file.name if self.file else "my.halshow")
         if path:
             self.save(path, multiline)
@@ -572,21 +573,21 @@ class Settings:
                      "autoSaveWatchlist": tk.BooleanVar(page, prefs.integer("autoSaveWatchlist")),
                      "separateParams": tk.BooleanVar(page, window.separate)}
         self.entries = {}
-        for row, (name, label) in enumerate((("watchInterval", "Update interval (ms)"), ("col1_width", "Column width"), ("ffmts", "Float"), ("ifmts", "Integer"))):
+        for row, (name, label) in enumerate((("watchInterval", _("Update interval (ms)")), ("col1_width", _("Column width")), ("ffmts", _("Float")), ("ifmts", _("Integer")))):
             if name == "ffmts":
-                ttk.Label(page, text="Format overrides (printf style, for example %.3f and %08X):").grid(row=2, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
+                ttk.Label(page, text=_("Format overrides (printf style, for example %.3f and %08X):")).grid(row=2, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
             ttk.Label(page, text=label).grid(row=row + (row > 1), column=0, sticky="w", pady=px(2))
             self.entries[name] = ttk.Entry(page, textvariable=self.vars[name], width=12)
             self.entries[name].grid(row=row + (row > 1), column=1, sticky="w", pady=px(2))
             self.entries[name].bind("<Return>", lambda event: self.apply())
         self.boxes = {}
-        for row, (name, label) in enumerate((("alwaysOnTop", "Always on top"), ("autoSaveWatchlist", "Remember watchlist"),
-                                             ("separateParams", "Separate parameters from pins in tree")), 5):
+        for row, (name, label) in enumerate((("alwaysOnTop", _("Always on top")), ("autoSaveWatchlist", _("Remember watchlist")),
+                                             ("separateParams", _("Separate parameters from pins in tree"))), 5):
             self.boxes[name] = ttk.Checkbutton(page, text=label, variable=self.vars[name])
             self.boxes[name].grid(row=row, column=0, columnspan=2, sticky="w", pady=(px(8) if row == 5 else 0, 0))
-        self.button = ttk.Button(page, text="Apply", command=self.apply)
+        self.button = ttk.Button(page, text=_("Apply"), command=self.apply)
         self.button.grid(row=8, column=0, sticky="w", pady=px(10))
-        where = f"Settings are stored in\n{prefs.path}" if prefs.path else "Settings are not stored (--noprefs)"
+        where = _("Settings are stored in\n%s") % prefs.path if prefs.path else _("Settings are not stored (--noprefs)")
         ttk.Label(page, text=where, style="Faint.TLabel", justify="left").grid(row=9, column=0, columnspan=2, sticky="w")
 
     def value(self, name):
@@ -604,11 +605,11 @@ class Settings:
             column = watch.convert("u32", self.value("col1_width"))
             window.formats.check(self.value("ffmts"), self.value("ifmts"))
             if not 1 <= interval <= 60000:
-                raise ValueError(f"update interval {interval} ms: must be 1 to 60000")
+                raise ValueError(_("update interval %s ms: must be 1 to 60000") % interval)
             if not 20 <= column <= 1000:
-                raise ValueError(f"column width {column}: must be 20 to 1000")
+                raise ValueError(_("column width %s: must be 20 to 1000") % column)
         except ValueError as error:
-            window.say(f"Not applied: {error}", True)
+            window.say(_("Not applied: %s") % error, True)
             return
         window.interval, window.view.column = interval, column
         window.formats.real, window.formats.integer = self.value("ffmts"), self.value("ifmts")
@@ -617,7 +618,7 @@ class Settings:
             window.separate = self.value("separateParams")
             window.load_tree()
         window.view.layout()
-        window.say("Applied")
+        window.say(_("Applied"))
         window.save_preferences()
 
 

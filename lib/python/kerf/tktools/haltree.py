@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 from hal import query
 
-ROOTS = {"comp": "Components", "pin": "Pins", "param": "Parameters", "sig": "Signals", "funct": "Functions", "thread": "Threads"}
-MERGED = "Pins & Parameters"
+from ..language import _, N_
+
+ROOTS = {"comp": N_("Components"), "pin": N_("Pins"), "param": N_("Parameters"), "sig": N_("Signals"), "funct": N_("Functions"), "thread": N_("Threads")}
+MERGED = N_("Pins & Parameters")
 GROUPED = ("pin", "param", "sig")
 
 
@@ -38,7 +40,7 @@ def nodes(found, separate):
     for kind, title in ROOTS.items():
         if kind == "param" and not separate:
             continue
-        put(kind, "", MERGED if kind == "pin" and not separate else title, "", "")
+        put(kind, "", _(MERGED if kind == "pin" and not separate else title), "", "")
         items = [(name, kind) for name in found[kind]]
         if kind == "pin" and not separate:
             items = sorted(items + [(name, "param") for name in found["param"]])

@@ -18,14 +18,15 @@ import numpy
 from PIL import Image
 
 from .. import relief, tkstyle
+from ..language import _
 
 PROGRAM = "image-to-gcode"
 REMEMBERED = Path("~/.image2gcoderc")
 LABELS = {
-    "units": "Units", "invert": "Invert image", "normalize": "Normalize image", "expand": "Extend image border", "tolerance": "Tolerance", "pixel_size": "Pixel size",
-    "feed_rate": "Feed rate", "plunge_feed_rate": "Plunge feed rate", "spindle_speed": "Spindle speed", "pattern": "Scan pattern", "converter": "Scan direction",
-    "depth": "Depth", "pixelstep": "Step over (pixels)", "tool_diameter": "Tool diameter", "safety_height": "Safety height", "tool_type": "Tool type",
-    "bounded": "Lace bounding", "contact_angle": "Contact angle", "roughing_offset": "Roughing offset", "roughing_depth": "Roughing depth a pass"}
+    "units": _("Units"), "invert": _("Invert image"), "normalize": _("Normalize image"), "expand": _("Extend image border"), "tolerance": _("Tolerance"), "pixel_size": _("Pixel size"),
+    "feed_rate": _("Feed rate"), "plunge_feed_rate": _("Plunge feed rate"), "spindle_speed": _("Spindle speed"), "pattern": _("Scan pattern"), "converter": _("Scan direction"),
+    "depth": _("Depth"), "pixelstep": _("Step over (pixels)"), "tool_diameter": _("Tool diameter"), "safety_height": _("Safety height"), "tool_type": _("Tool type"),
+    "bounded": _("Lace bounding"), "contact_angle": _("Contact angle"), "roughing_offset": _("Roughing offset"), "roughing_depth": _("Roughing depth a pass")}
 LARGEST = 220  # px of the picture in the window
 
 
@@ -86,7 +87,7 @@ class Window:
     def __init__(self, root, image, name, settings):
         self.root, self.start, self.settings = root, settings, None
         style = tkstyle.apply(root)
-        root.title(f"Image to gcode: {name}")
+        root.title(_("Image to gcode: %s") % name)
         box = ttk.Frame(root, padding=style.px(8))
         box.pack(fill="both", expand=True)
         small = image.convert("L")
@@ -114,18 +115,18 @@ class Window:
         buttons = ttk.Frame(box)
         buttons.grid(row=2, column=0, columnspan=2, sticky="e", pady=(style.px(6), 0))
         self.ok = ttk.Button(buttons, text="OK", command=self.accept)
-        self.cancel = ttk.Button(buttons, text="Cancel", command=root.destroy)
+        self.cancel = ttk.Button(buttons, text=_("Cancel"), command=root.destroy)
         self.ok.pack(side="left", padx=style.px(4))
         self.cancel.pack(side="left")
-        root.bind("<Return>", lambda _: self.accept())
-        root.bind("<Escape>", lambda _: root.destroy())
+        root.bind("<Return>", lambda _event: self.accept())
+        root.bind("<Escape>", lambda _event: root.destroy())
         self.show_size()
 
     def field(self, parent, name):
         value = getattr(self.start, name)
         if name in relief.CHOICES:
-            variable = tk.StringVar(self.root, relief.CHOICES[name][value])
-            widget = ttk.Combobox(parent, textvariable=variable, values=relief.CHOICES[name], state="readonly", width=18)
+            variable = tk.StringVar(self.root, _(relief.CHOICES[name][value]))
+            widget = ttk.Combobox(parent, textvariable=variable, values=[_(c) for c in relief.CHOICES[name]], state="readonly", width=18)
         elif isinstance(value, bool):
             variable = tk.BooleanVar(self.root, value)
             widget = ttk.Checkbutton(parent, variable=variable)
@@ -142,14 +143,14 @@ class Window:
         for name, variable in self.fields.items():
             text = variable.get()
             if name in relief.CHOICES:
-                value = relief.CHOICES[name].index(text)
+                value = [_(c) for c in relief.CHOICES[name]].index(text)
             elif isinstance(getattr(settings, name), bool):
                 value = bool(text)
             else:
                 try:
                     value = type(getattr(settings, name))(text)
                 except ValueError:
-                    raise relief.Mistake(f"{LABELS[name]}: {text!r} is no {'whole ' if name == 'pixelstep' else ''}number") from None
+                    raise relief.Mistake((_("%s: %r is no whole number") if name == "pixelstep" else _("%s: %r is no number")) % (LABELS[name], text)) from None
             setattr(settings, name, value)
         settings.check()
         return settings
@@ -165,7 +166,7 @@ class Window:
         self.told.configure(text="")
         unit = ("in", "mm")[settings.units]
         wide, high = (n * settings.pixel_size for n in self.pixels)
-        self.size.configure(text=f"{self.pixels[0]} x {self.pixels[1]} pixels: {wide:.4g} x {high:.4g} {unit}")
+        self.size.configure(text=_("%d x %d pixels: %.4g x %.4g %s") % (*self.pixels, wide, high, unit))
 
     def accept(self):
         try:
@@ -199,7 +200,7 @@ def main(arguments):
     else:
         root = tkstyle.open_display(PROGRAM, "ImageToGcode")
         root.withdraw()
-        name = filedialog.askopenfilename(parent=root, title="Open image", filetypes=[("Images", "*.png *.gif *.jpg *.jpeg *.tif *.tiff *.bmp"), ("All files", "*")])
+        name = filedialog.askopenfilename(parent=root, title=_("Open image"), filetypes=[(_("Images"), "*.png *.gif *.jpg *.jpeg *.tif *.tiff *.bmp"), (_("All files"), "*")])
         root.destroy()
         if not name:
             sys.exit(f"{PROGRAM}: User pressed cancel")

@@ -7,6 +7,7 @@ from tkinter import ttk
 import linuxcnc
 
 from .. import tkstyle
+from ..language import _
 from . import controller
 
 PERIOD_MS = 100
@@ -76,7 +77,7 @@ class Window:
         style = self.style = tkstyle.apply(root)
         px = style.px
         root.title("LinuxCNC Status")
-        self.button = ttk.Button(root, text="Copy All", command=self.copy_all)
+        self.button = ttk.Button(root, text=_("Copy All"), command=self.copy_all)
         self.button.pack(side="bottom", pady=px(6))
         self.text = tk.Text(root, wrap="none", width=84, height=40, state="disabled", relief="flat", padx=px(6), pady=px(6))
         down = ttk.Scrollbar(root, command=self.text.yview)

@@ -12,6 +12,7 @@ from tkinter import ttk
 import hal
 
 from .. import tkstyle
+from ..language import _, N_
 
 PERIOD_MS = 100
 SYSTEMS = 4                         # that can be set, beside the machine's own
@@ -19,7 +20,7 @@ AXES = "XYZABCUVW"
 FIRST_PARAMETER, PER_SYSTEM = 5221, 20
 INCH_MM = 25.4
 FORMATS = {"inch": "%.4f", "mm": "%.2f"}
-KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "0", ".", "-", "C", "⌫", "Enter")
+KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "0", ".", "-", "C", "⌫", N_("Enter"))
 
 
 class Readout:
@@ -117,7 +118,7 @@ class Window:
         self.keys = {}
         for n, key in enumerate(KEYS):
             wide = key == "Enter"
-            self.keys[key] = ttk.Button(pad, text=key, width=5 if wide else 3, style="Readout.TButton", takefocus=False, command=lambda k=key: self.press(k))
+            self.keys[key] = ttk.Button(pad, text=_(key), width=5 if wide else 3, style="Readout.TButton", takefocus=False, command=lambda k=key: self.press(k))
             self.keys[key].grid(row=n // 3, column=n % 3, sticky="nsew", padx=1, pady=1)
             pad.rowconfigure(n // 3, weight=1)
 
@@ -130,8 +131,8 @@ class Window:
         for k, name in enumerate(self.readout.names()):
             self.radios[name] = ttk.Radiobutton(line, text=name, value=k, variable=self.system, command=self.choose, takefocus=False)
             self.radios[name].pack(side="left", padx=px(3))
-        for unit in reversed(("inch", "mm")):
-            self.radios[unit] = ttk.Radiobutton(line, text=unit, value=unit, variable=self.unit, command=self.choose, takefocus=False)
+        for unit in reversed((N_("inch"), "mm")):
+            self.radios[unit] = ttk.Radiobutton(line, text=_(unit), value=unit, variable=self.unit, command=self.choose, takefocus=False)
             self.radios[unit].pack(side="right", padx=px(3))
         self.choose()
 

@@ -8,6 +8,7 @@ from tkinter import ttk
 import hal
 
 from .. import tkstyle
+from ..language import _
 
 PERIOD_MS = 2000
 CONNECTED, REQUIRED = "xhc-hb04.connected", "xhc-hb04.require_pendant"
@@ -28,14 +29,14 @@ class Monitor:
         first, changed = self.connected is None, self.connected is not None and now != self.connected
         self.connected = now
         if first:
-            return None if now or required else "Not connected to pendant"
+            return None if now or required else _("Not connected to pendant")
         if not changed:
             return None
         if now:
-            return "Connected to pendant" + ("\n\nUnexpected" if required else "")
+            return _("Connected to pendant") + ("\n\n" + _("Unexpected") if required else "")
         if required:
             self.ended = True
-        return "Lost connection to pendant" + ("\n\nReconnect not supported for require_pendant==1" if required else "")
+        return _("Lost connection to pendant") + ("\n\n" + _("Reconnect not supported for require_pendant==1") if required else "")
 
 
 class Window:
@@ -44,7 +45,7 @@ class Window:
     def __init__(self, root, monitor):
         self.root, self.monitor = root, monitor
         px = tkstyle.apply(root).px
-        root.title("Pendant")
+        root.title(_("Pendant"))
         root.attributes("-topmost", True)
         self.label = ttk.Label(root, padding=px(20), justify="center")
         self.label.pack()

@@ -16,6 +16,8 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..language import _
+
 MOST = 30                       # parameters of a subroutine, and names of a gcmc file
 FEATURE = " FEATURE "           # in a comment: the file was made by this program
 BACKUP = Path("/tmp/ngcgui_bak")
@@ -64,7 +66,7 @@ class Form:
         texts = []
         for parameter, value in zip(self.parameters, values):
             if not is_value(value):
-                raise ValueError(f"{parameter.name}: {value!r} is no number" if value.strip() else f"{parameter.name}: a value is missing")
+                raise ValueError(_("%s: %r is no number") % (parameter.name, value) if value.strip() else _("%s: a value is missing") % parameter.name)
             texts.append(value.strip())
         return texts
 
@@ -86,9 +88,9 @@ class Subroutine(Form):
         for count, line in enumerate(self.lines, 1):
             for comment in comments(line):
                 if "not_a_subfile" in comment:
-                    self.fail(count, "it says that it is not a subfile")
+                    self.fail(count, _("it says that it is not a subfile"))
                 if FEATURE in f" {comment} ":
-                    self.fail(count, "it was made by ngcgui (FEATURE): a subroutine file is needed")
+                    self.fail(count, _("it was made by ngcgui (FEATURE): a subroutine file is needed"))
                 if comment.strip().lower().startswith("info:") and not self.info:
                     self.info = comment.strip()[5:].strip()
         for count, line in enumerate(self.lines, 1):
@@ -100,20 +102,20 @@ class Subroutine(Form):
                 continue
             if state != "inside":
                 if text and not (state == "after" and text in WORDS_ENDING) and text != "%":
-                    self.fail(count, f"'{line.strip()}' is outside of the subroutine: only comments may be")
+                    self.fail(count, _("'%s' is outside of the subroutine: only comments may be") % line.strip())
                 continue
             if label and label[1].isdigit():
-                self.fail(count, f"o{label[1]}: numbered o-words are not possible here: give it a name (o<...>)")
+                self.fail(count, _("o%s: numbered o-words are not possible here: give it a name (o<...>)") % label[1])
             if match := NAMED.match(text):
                 self.take(count, match, line, named)
             used |= {int(n) for n in re.findall(r"#(\d+)", text) if 1 <= int(n) <= MOST}
             self.body.append(line)
         if state != "after":
-            self.fail(len(self.lines), f"o<{self.name}> {'endsub' if state == 'inside' else 'sub'} is missing")
+            self.fail(len(self.lines), _("o<%s> %s is missing") % (self.name, 'endsub' if state == 'inside' else 'sub'))
         numbers = set(named) | used
         if numbers and numbers != set(range(1, max(numbers) + 1)):
             missing = min(set(range(1, max(numbers) + 1)) - numbers)
-            self.fail(1, f"parameter #{missing} is missing: the numbers must follow each other from 1")
+            self.fail(1, _("parameter #%s is missing: the numbers must follow each other from 1") % missing)
         self.parameters = [named.get(n) or Parameter(n, f"#{n}") for n in sorted(numbers)]
         self.find_picture()
 
@@ -122,15 +124,15 @@ class Subroutine(Form):
 
     def check_label(self, count, label, state):
         if label[1] != f"<{self.name.lower()}>":
-            self.fail(count, f"the subroutine is o{label[1]}: it must have the name of the file, o<{self.name}>")
+            self.fail(count, _("the subroutine is o%s: it must have the name of the file, o<%s>") % (label[1], self.name))
         if state != ("before" if label[2] == "sub" else "inside"):
-            self.fail(count, "only one subroutine may be in the file" if label[2] == "sub" else "endsub without sub")
+            self.fail(count, _("only one subroutine may be in the file") if label[2] == "sub" else _("endsub without sub"))
 
     def take(self, count, match, line, named):
         number = int(match[2])
         if not 1 <= number <= MOST:
             if number > MOST:
-                self.fail(count, f"#{number}: at most {MOST} parameters are possible")
+                self.fail(count, _("#%s: at most %s parameters are possible") % (number, MOST))
             return
         if number in named:
             return
@@ -184,7 +186,7 @@ class Gcmc(Form):
         """What the compiler makes. NotUsable: it is missing, or complains."""
         program = shutil.which("gcmc")
         if not program:
-            raise NotUsable(f"{self.path}: the program gcmc is not installed")
+            raise NotUsable(_("%s: the program gcmc is not installed") % self.path)
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "out.ngc"
             words = [program, "--output", str(out)] + [f"--include={p}" for p in self.include] + self.options

@@ -13,6 +13,7 @@ from pathlib import Path
 from tkinter import filedialog, messagebox, ttk
 
 from .. import tkstyle
+from ..language import _, N_
 from .ngcfiles import NotUsable, Program, form_of, is_value, start_folder
 from .widgets import Scrolled
 
@@ -20,7 +21,7 @@ TITLE = "ngcgui"
 PICTURE = (320, 240)        # at most, pixels
 DEFAULT_OUT = "auto.ngc"
 COORDINATES = "xyzabcuvw"
-KEYS = """Ctrl-a  autosend on, off           Ctrl-n  restart
+KEYS = _("""Ctrl-a  autosend on, off           Ctrl-n  restart
 Ctrl-c  clear the entries          Ctrl-p  preamble        Ctrl-P  postamble
 Ctrl-d  default values             Ctrl-r  read the subfile again
 Ctrl-e  edit the last file         Ctrl-R  retain values on reading
@@ -28,7 +29,7 @@ Ctrl-E  expand the subroutine      Ctrl-q  verbose
 Ctrl-f  create a feature           Ctrl-s  status
 Ctrl-F  finalize                   Ctrl-u  edit the subfile
 Ctrl-k  this list                  Ctrl-U  edit the preamble
-x y z a b c u v w in an entry: the present coordinate; d: twice x"""
+x y z a b c u v w in an entry: the present coordinate; d: twice x""")
 
 
 class Page:
@@ -51,7 +52,7 @@ class Page:
         if options.subfile:
             self.read(options.subfile)
         else:
-            self.say("Choose a subfile")
+            self.say(_("Choose a subfile"))
 
     def _controls(self):
         px = self.style.px
@@ -61,17 +62,17 @@ class Page:
         self.buttons, self.names = {}, {}
 
         def button(text, action):
-            self.buttons[text] = ttk.Button(box, text=text, command=action, takefocus=False)
+            self.buttons[text] = ttk.Button(box, text=_(text), command=action, takefocus=False)
             self.buttons[text].pack(fill="x", pady=px(1))
-        for text, action in (("Preamble", self.choose_preamble), ("Subfile", self.choose_subfile), ("Postamble", self.choose_postamble)):
+        for text, action in ((N_("Preamble"), self.choose_preamble), (N_("Subfile"), self.choose_subfile), (N_("Postamble"), self.choose_postamble)):
             button(text, action)
             self.names[text] = ttk.Label(box, style="Faint.TLabel", anchor="w")
             self.names[text].pack(fill="x")
-        for text, variable in (("Retain values on Subfile read", self.retain), ("Expand subroutine", self.expand), ("Autosend", self.autosend),
-                               ("Verbose ngcfile", self.verbose)):
-            ttk.Checkbutton(box, text=text, variable=variable, takefocus=False, command=self.show_state).pack(fill="x")
-        for text, action in (("Create Feature", self.create), ("Reread", self.reread), ("Restart", self.restart), ("MakeFile", self.finalize),
-                             ("SendFileToAxis", self.send), ("Exit", self.exit)):
+        for text, variable in ((N_("Retain values on Subfile read"), self.retain), (N_("Expand subroutine"), self.expand), (N_("Autosend"), self.autosend),
+                               (N_("Verbose ngcfile"), self.verbose)):
+            ttk.Checkbutton(box, text=_(text), variable=variable, takefocus=False, command=self.show_state).pack(fill="x")
+        for text, action in ((N_("Create Feature"), self.create), (N_("Reread"), self.reread), (N_("Restart"), self.restart), (N_("MakeFile"), self.finalize),
+                             (N_("SendFileToAxis"), self.send), (N_("Exit"), self.exit)):
             button(text, action)
         self.picture = ttk.Label(box, anchor="center")
         self.controls.wheel(*box.winfo_children())
@@ -84,8 +85,8 @@ class Page:
         """Names and labels that follow what is chosen."""
         self.program.verbose = self.verbose.get()
         count = len(self.program.features)
-        self.buttons["Create Feature"].configure(text="Create Next" if count else "Create Feature", state="normal" if self.form else "disabled")
-        self.buttons["MakeFile"].configure(text="Finalize" if self.autosend.get() else "MakeFile", state="normal" if count else "disabled")
+        self.buttons["Create Feature"].configure(text=_("Create Next") if count else _("Create Feature"), state="normal" if self.form else "disabled")
+        self.buttons["MakeFile"].configure(text=_("Finalize") if self.autosend.get() else _("MakeFile"), state="normal" if count else "disabled")
         self.buttons["SendFileToAxis"].configure(state="normal" if self.last else "disabled")
         for text, name in (("Preamble", self.program.preamble), ("Subfile", self.form.path.name if self.form else ""), ("Postamble", self.program.postamble)):
             self.names[text].configure(text=os.path.basename(name) if not name.startswith(":") else name)
@@ -103,7 +104,7 @@ class Page:
         kept = {row[0].name: row[2].get() for row in self.rows} if self.retain.get() and self.form and self.form.path == form.path else {}
         self.form = form
         self.show_form(kept)
-        self.say(form.info or f"{form.path.name}: {len(form.parameters)} parameters")
+        self.say(form.info or _("%s: %d parameters") % (form.path.name, len(form.parameters)))
         return True
 
     def show_form(self, kept):
@@ -162,14 +163,14 @@ class Page:
         return "break"
 
     def values(self):
-        return [text.get() for _, _, text in self.rows]
+        return [text.get() for _parameter, _entry, text in self.rows]
 
     def clear(self):
-        for _, _, text in self.rows:
+        for _parameter, _entry, text in self.rows:
             text.set("")
 
     def defaults(self):
-        for parameter, _, text in self.rows:
+        for parameter, _entry, text in self.rows:
             text.set(parameter.default)
 
     def reread(self):
@@ -183,19 +184,19 @@ class Page:
 
     def ask_file(self, title):
         return filedialog.askopenfilename(parent=self.parent, title=title, initialdir=self.folder(),
-                                          filetypes=(("Subroutines", "*.ngc *.gcmc"), ("All files", "*")))
+                                          filetypes=((_("Subroutines"), "*.ngc *.gcmc"), (_("All files"), "*")))
 
     def choose_subfile(self):
-        if path := self.ask_file("Subfile"):
+        if path := self.ask_file(_("Subfile")):
             self.read(path)
 
     def choose_preamble(self):
-        if path := self.ask_file("Preamble"):
+        if path := self.ask_file(_("Preamble")):
             self.program.preamble = path
             self.show_state()
 
     def choose_postamble(self):
-        if path := self.ask_file("Postamble"):
+        if path := self.ask_file(_("Postamble")):
             self.program.postamble = path
             self.show_state()
 
@@ -218,19 +219,19 @@ class Page:
         except (ValueError, NotUsable) as error:
             self.say(str(error), True)
             return False
-        self.say(f"{len(self.program.features)} feature{'s' if len(self.program.features) > 1 else ''}: {self.form.path.name}")
+        self.say(_("Features: %d, the last one from %s") % (len(self.program.features), self.form.path.name))
         self.show_state()
         return True
 
     def restart(self):
         self.program.features.clear()
-        self.say("No features")
+        self.say(_("No features"))
         self.show_state()
 
     def finalize(self):
         """The program is written; with Autosend AXIS opens it."""
         if not self.program.features:
-            self.say("There is no feature: Create Feature makes one", True)
+            self.say(_("There is no feature: Create Feature makes one"), True)
             return
         try:
             self.last = self.program.write(self.o.output or DEFAULT_OUT)
@@ -239,7 +240,7 @@ class Page:
             return
         count = len(self.program.features)
         self.program.features.clear()
-        self.say(f"{self.last}: {count} features")
+        self.say(_("%s: %d features") % (self.last, count))
         self.show_state()
         if self.autosend.get():
             self.send()
@@ -253,12 +254,12 @@ class Page:
             problem = done.stdout.strip() if done.returncode else ""
         except (OSError, subprocess.TimeoutExpired) as error:
             problem = str(error)
-        self.say(f"Not sent: {problem}" if problem else f"Sent to AXIS: {self.last}", bool(problem))
+        self.say(_("Not sent: %s") % problem if problem else _("Sent to AXIS: %s") % self.last, bool(problem))
 
     def exit(self):
         """Features that are in no file are asked for."""
         if self.program.features:
-            answer = messagebox.askyesnocancel(TITLE, f"{len(self.program.features)} features are in no file yet.\nWrite it?", parent=self.parent)
+            answer = messagebox.askyesnocancel(TITLE, _("%d features are in no file yet.\nWrite it?") % len(self.program.features), parent=self.parent)
             if answer is None:
                 return
             if answer:
@@ -278,7 +279,7 @@ class Page:
         actions = {"a": lambda: flip(self.autosend), "c": self.clear, "d": self.defaults, "e": lambda: self.edit(self.last), "E": lambda: flip(self.expand),
                    "f": self.create, "F": self.finalize, "k": self.show_keys, "n": self.restart, "p": self.choose_preamble, "P": self.choose_postamble,
                    "r": self.reread, "R": lambda: flip(self.retain), "q": lambda: flip(self.verbose),
-                   "s": lambda: self.say(f"{len(self.program.features)} features, last file: {self.last or 'none'}"),
+                   "s": lambda: self.say(_("%d features, last file: %s") % (len(self.program.features), self.last or _("none"))),
                    "u": lambda: self.edit(self.form.path if self.form else None), "U": lambda: self.edit(self.program.preamble)}
         for key, action in actions.items():
             def handler(_event, a=action):

@@ -9,11 +9,12 @@ from pathlib import Path
 from tkinter import messagebox, ttk
 
 from .. import tkstyle
+from ..language import _, N_
 from .ngcgui import DEFAULT_OUT, Page, options, take_ini
 from .ngcfiles import start_folder
 
 COMMAND = "::ngcgui::embed"
-CUSTOM = "Custom"
+CUSTOM = _("Custom")
 
 
 class Tabs:
@@ -60,7 +61,7 @@ class Tabs:
 
     def remove(self, page):
         """The tab goes; one with features asks first."""
-        if page.program.features and not messagebox.askyesno("ngcgui", f"{len(page.program.features)} features are in no file yet. Remove the tab?",
+        if page.program.features and not messagebox.askyesno("ngcgui", _("%d features are in no file yet. Remove the tab?") % len(page.program.features),
                                                              parent=self.app.root):
             return
         self.pages.remove(page)
@@ -90,10 +91,10 @@ class EmbeddedPage(Page):
         self.buttons["Exit"].pack_forget()
         row = ttk.Frame(self.frame)
         row.pack(side="bottom", fill="x")
-        for text, option, action in (("new", "nonew", lambda: tabs.add(o.subfile)), ("remove", "noremove", lambda: tabs.remove(self)),
-                                     ("\N{LEFTWARDS ARROW} move", "", lambda: tabs.move(self, -1)), ("move \N{RIGHTWARDS ARROW}", "", lambda: tabs.move(self, 1))):
+        for text, option, action in ((N_("new"), "nonew", lambda: tabs.add(o.subfile)), (N_("remove"), "noremove", lambda: tabs.remove(self)),
+                                     (N_("\N{LEFTWARDS ARROW} move"), "", lambda: tabs.move(self, -1)), (N_("move \N{RIGHTWARDS ARROW}"), "", lambda: tabs.move(self, 1))):
             if not option or option not in tabs.words:
-                self.buttons[text] = ttk.Button(row, text=text, takefocus=False, command=action)
+                self.buttons[text] = ttk.Button(row, text=_(text), takefocus=False, command=action)
                 self.buttons[text].pack(side="left", padx=1)
 
     def position(self, letter):
@@ -114,7 +115,7 @@ class EmbeddedPage(Page):
     def send(self):
         if self.last:
             self.tabs.app.load(str(Path(self.last).resolve()))
-            self.say(f"Opened: {self.last}")
+            self.say(_("Opened: %s") % self.last)
 
 
 def offer(app):

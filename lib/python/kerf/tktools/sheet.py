@@ -5,6 +5,8 @@ import tkinter as tk
 from dataclasses import dataclass
 from tkinter import ttk
 
+from ..language import _
+
 
 @dataclass(frozen=True)
 class Column:
@@ -45,7 +47,7 @@ class Sheet(ttk.Frame):
             self._wheel(widget)
 
     def _headings(self):
-        ttk.Label(self.inner, text="Del", anchor="center").grid(row=0, column=0, sticky="ew", padx=2)
+        ttk.Label(self.inner, text=_("Del"), anchor="center").grid(row=0, column=0, sticky="ew", padx=2)
         self.heads = []
         for place, column in enumerate(self.columns, 1):
             head = ttk.Button(self.inner, text=column.title, style="Toolbutton", takefocus=False, width=-1,

@@ -8,9 +8,10 @@ from tkinter import ttk
 import linuxcnc
 
 from .. import tkstyle
+from ..language import _, N_
 from . import controller
 
-JOINT, WORLD = "Joint", "World"
+JOINT, WORLD = N_("Joint"), N_("World")
 
 
 class Window:
@@ -20,14 +21,14 @@ class Window:
         root.title("Teach-in")
         box = ttk.Frame(root, padding=style.px(10))
         box.pack(fill="both", expand=True)
-        self.button = ttk.Button(box, text="Learn", command=self.learn)
+        self.button = ttk.Button(box, text=_("Learn"), command=self.learn)
         self.button.pack(fill="x", ipady=style.px(10))
         self.system = tk.StringVar(root, WORLD)
         self.radios = {}
         for name in (JOINT, WORLD):
-            self.radios[name] = ttk.Radiobutton(box, text=name, value=name, variable=self.system)
+            self.radios[name] = ttk.Radiobutton(box, text=_(name), value=name, variable=self.system)
             self.radios[name].pack(anchor="w")
-        self.label = ttk.Label(box, text="0 positions")
+        self.label = ttk.Label(box, text=_("%d positions") % 0)
         self.label.pack(fill="x")
         root.minsize(style.px(220), 1)
 
@@ -45,7 +46,7 @@ class Window:
             values = [v for n, v in enumerate(s.actual_position) if s.axis_mask & (1 << n)]
         position = " ".join("%-8.4f" % v for v in values)
         print(self.count, position, s.flood, s.mist, 0, int(s.spindle[0]["enabled"]), file=self.out, flush=True)
-        self.label.configure(text=f"{self.count} positions", style="TLabel")
+        self.label.configure(text=_("%d positions") % self.count, style="TLabel")
 
 
 def main(arguments):

@@ -12,14 +12,18 @@ from tkinter import filedialog, messagebox, simpledialog, ttk
 import linuxcnc
 
 from .. import tkstyle
+from ..language import _, N_
 from ..tree import Tree
 from .machine import Jog, Machine
 from .tklinuxcnc_popups import Popups
 
 TITLE = "TkLinuxCNC"
 RELEASE_MS = 40             # a key that repeats is let go and pressed again within this time
-STATES = {linuxcnc.STATE_ESTOP: "ESTOP", linuxcnc.STATE_ESTOP_RESET: "ESTOP RESET", linuxcnc.STATE_OFF: "OFF", linuxcnc.STATE_ON: "ON"}
-MODES = {linuxcnc.MODE_MANUAL: "MANUAL", linuxcnc.MODE_AUTO: "AUTO", linuxcnc.MODE_MDI: "MDI"}
+STATES = {linuxcnc.STATE_ESTOP: _("ESTOP"), linuxcnc.STATE_ESTOP_RESET: _("ESTOP RESET"), linuxcnc.STATE_OFF: _("OFF"), linuxcnc.STATE_ON: _("ON")}
+MODES = {linuxcnc.MODE_MANUAL: _("MANUAL"), linuxcnc.MODE_AUTO: _("AUTO"), linuxcnc.MODE_MDI: "MDI"}
+SHOWN = {"estop": STATES.values(), "mist": (_("MIST ON"), _("MIST OFF")), "spindle": (_("SPINDLE FORWARD"), _("SPINDLE REVERSE"), _("SPINDLE OFF")),
+         "brake": (_("BRAKE ON"), _("BRAKE OFF")), "flood": (_("FLOOD ON"), _("FLOOD OFF")), "mode": MODES.values()}
+CONTINUOUS = _("continuous")
 TYPING = ("Entry", "TEntry", "Text", "TCombobox")
 JOG_KEYS = {"Left": ("X", -1), "Right": ("X", 1), "Down": ("Y", -1), "Up": ("Y", 1), "Next": ("Z", -1), "Prior": ("Z", 1)}
 
@@ -55,7 +59,7 @@ class Window:
         self.world = tk.IntVar(self.root, 1)
         self.units = tk.StringVar(self.root, "auto")
         self.selected = tk.IntVar(self.root, 0)
-        self.incremental = tk.StringVar(self.root, "continuous")
+        self.incremental = tk.StringVar(self.root, CONTINUOUS)
         self.linear, self.angular = tk.DoubleVar(self.root, self.m.linear_speed), tk.DoubleVar(self.root, self.m.angular_speed)
         self.optional_stop, self.override = tk.BooleanVar(self.root), tk.BooleanVar(self.root)
         self.balloons = tk.BooleanVar(self.root, (find("DISPLAY", "BALLOON_HELP") or "0").lower() in ("1", "yes", "true", "on"))
@@ -67,29 +71,29 @@ class Window:
         ini = str(self.m.path)
         run = self.run_program
         entries = {
-            "File": (("Open...", self.open), ("Edit...", self.edit), ("Tool Table Editor...", self.edit_tools), ("Reload Tool Table", self.m.command.load_tool_table),
-                     ("Reset", self.m.command.reset_interpreter), None, ("Exit", self.exit)),
-            "View": (("Offsets and Variables...", self.popups.offsets), ("Diagnostics...", lambda: run("linuxcnctop", "-ini", ini)),
-                     ("Backplot...", self.popups.backplot)),
-            "Settings": (("Calibration...", lambda: run("emccalib", "-ini", ini)), ("Testing...", None), ("Debug...", lambda: run("debuglevel", "-ini", ini)),
-                         ("Font...", self.choose_font)),
-            "Units": tuple((unit, ("unit", unit)) for unit in ("auto", "inches", "mm", "cm")),
-            "Utilities": (("Hal Scope", lambda: run("halscope")), ("Hal Meter", lambda: run("halmeter"))),
-            "Scripts": (("Set Coordinates", self.popups.set_coordinates), ("HAL Show", lambda: run("halshow")), ("HAL Config", lambda: run("halconfig"))),
-            "Help": (("Help...", self.help), ("Balloon help", ("check", self.balloons)), ("About...", self.about)),
+            N_("File"): ((N_("Open..."), self.open), (N_("Edit..."), self.edit), (N_("Tool Table Editor..."), self.edit_tools), (N_("Reload Tool Table"), self.m.command.load_tool_table),
+                     (N_("Reset"), self.m.command.reset_interpreter), None, (N_("Exit"), self.exit)),
+            N_("View"): ((N_("Offsets and Variables..."), self.popups.offsets), (N_("Diagnostics..."), lambda: run("linuxcnctop", "-ini", ini)),
+                     (N_("Backplot..."), self.popups.backplot)),
+            N_("Settings"): ((N_("Calibration..."), lambda: run("emccalib", "-ini", ini)), (N_("Testing..."), None), (N_("Debug..."), lambda: run("debuglevel", "-ini", ini)),
+                         (N_("Font..."), self.choose_font)),
+            N_("Units"): tuple((unit, ("unit", unit)) for unit in ("auto", "inches", "mm", "cm")),
+            N_("Utilities"): ((N_("Hal Scope"), lambda: run("halscope")), (N_("Hal Meter"), lambda: run("halmeter"))),
+            N_("Scripts"): ((N_("Set Coordinates"), self.popups.set_coordinates), (N_("HAL Show"), lambda: run("halshow")), (N_("HAL Config"), lambda: run("halconfig"))),
+            N_("Help"): ((N_("Help..."), self.help), (N_("Balloon help"), ("check", self.balloons)), (N_("About..."), self.about)),
         }
         for title, lines in entries.items():
             menu = self.menus[title] = tk.Menu(bar, tearoff=False)
-            bar.add_cascade(label=title, menu=menu, underline=0)
+            bar.add_cascade(label=_(title), menu=menu, underline=0)
             for line in lines:
                 if line is None:
                     menu.add_separator()
                 elif isinstance(line[1], tuple) and line[1][0] == "unit":
                     menu.add_radiobutton(label=line[0], value=line[1][1], variable=self.units)
                 elif isinstance(line[1], tuple):
-                    menu.add_checkbutton(label=line[0], variable=line[1][1])
+                    menu.add_checkbutton(label=_(line[0]), variable=line[1][1])
                 else:
-                    menu.add_command(label=line[0], command=line[1] or (lambda: None), state="normal" if line[1] else "disabled")
+                    menu.add_command(label=_(line[0]), command=line[1] or (lambda: None), state="normal" if line[1] else "disabled")
 
     def _state_row(self):
         """Buttons that show a state and change it."""
@@ -98,24 +102,34 @@ class Window:
         row.pack(fill="x")
         self.state_buttons = {}
         choices = {
-            "estop": (("Estop on", lambda: m.state(linuxcnc.STATE_ESTOP)), ("Estop off", lambda: m.state(linuxcnc.STATE_ESTOP_RESET)),
-                      ("Machine on", lambda: m.state(linuxcnc.STATE_ON)), ("Machine off", lambda: m.state(linuxcnc.STATE_OFF))),
-            "mist": (("Mist on", lambda: m.command.mist(linuxcnc.MIST_ON)), ("Mist off", lambda: m.command.mist(linuxcnc.MIST_OFF))),
-            "spindle": (("Spindle forward", lambda: m.spindle(1)), ("Spindle reverse", lambda: m.spindle(-1)), ("Spindle off", lambda: m.spindle(0))),
-            "brake": (("Brake on", lambda: m.command.brake(linuxcnc.BRAKE_ENGAGE)), ("Brake off", lambda: m.command.brake(linuxcnc.BRAKE_RELEASE))),
-            "flood": (("Flood on", lambda: m.command.flood(linuxcnc.FLOOD_ON)), ("Flood off", lambda: m.command.flood(linuxcnc.FLOOD_OFF))),
-            "mode": (("Manual", lambda: m.mode(linuxcnc.MODE_MANUAL)), ("Auto", lambda: m.mode(linuxcnc.MODE_AUTO)), ("MDI", lambda: m.mode(linuxcnc.MODE_MDI))),
+            "estop": ((N_("Estop on"), lambda: m.state(linuxcnc.STATE_ESTOP)), (N_("Estop off"), lambda: m.state(linuxcnc.STATE_ESTOP_RESET)),
+                      (N_("Machine on"), lambda: m.state(linuxcnc.STATE_ON)), (N_("Machine off"), lambda: m.state(linuxcnc.STATE_OFF))),
+            "mist": ((N_("Mist on"), lambda: m.command.mist(linuxcnc.MIST_ON)), (N_("Mist off"), lambda: m.command.mist(linuxcnc.MIST_OFF))),
+            "spindle": ((N_("Spindle forward"), lambda: m.spindle(1)), (N_("Spindle reverse"), lambda: m.spindle(-1)), (N_("Spindle off"), lambda: m.spindle(0))),
+            "brake": ((N_("Brake on"), lambda: m.command.brake(linuxcnc.BRAKE_ENGAGE)), (N_("Brake off"), lambda: m.command.brake(linuxcnc.BRAKE_RELEASE))),
+            "flood": ((N_("Flood on"), lambda: m.command.flood(linuxcnc.FLOOD_ON)), (N_("Flood off"), lambda: m.command.flood(linuxcnc.FLOOD_OFF))),
+            "mode": ((N_("Manual"), lambda: m.mode(linuxcnc.MODE_MANUAL)), (N_("Auto"), lambda: m.mode(linuxcnc.MODE_AUTO)), ("MDI", lambda: m.mode(linuxcnc.MODE_MDI))),
         }
-        for name, entries in choices.items():
-            button = self.state_buttons[name] = ttk.Menubutton(row, width=14)
+        for column, (name, entries) in enumerate(choices.items()):
+            button = self.state_buttons[name] = ttk.Menubutton(row)
             menu = tk.Menu(button, tearoff=False)
             for text, action in entries:
-                menu.add_command(label=text, command=action)
+                menu.add_command(label=_(text), command=action)
             button.configure(menu=menu)
-            button.pack(side="left", expand=True, fill="x", padx=px(2))
-            self.balloon(button, f"Shows and changes: {name}")
-        self.abort_button = ttk.Button(row, text="ABORT", command=self.abort, takefocus=False)
-        self.abort_button.pack(side="left", expand=True, fill="x", padx=px(2))
+            button.grid(row=0, column=column, sticky="ew", padx=px(2))
+            row.columnconfigure(column, weight=1, minsize=self.widest(button, SHOWN[name]) + 2 * px(2))     # it stays where it is
+            self.balloon(button, _("Shows the state; a click changes it"))
+        self.abort_button = ttk.Button(row, text=_("ABORT"), command=self.abort, takefocus=False)
+        self.abort_button.grid(row=0, column=len(choices), sticky="ew", padx=px(2))
+
+    @staticmethod
+    def widest(button, texts):
+        """Pixels that a button needs for the longest of the texts."""
+        widths = []
+        for text in texts:
+            button.configure(text=text)
+            widths.append(button.winfo_reqwidth())
+        return max(widths)
 
     def _readout(self, body):
         px = self.style.px
@@ -138,7 +152,7 @@ class Window:
             self.values.append(value)
         choice = ttk.Frame(box)
         choice.grid(row=0, column=2, rowspan=max(3, len(self.values)), padx=px(12), sticky="n")
-        for row, (variable, off, on) in enumerate(((self.relative, "machine", "relative"), (self.actual, "commanded", "actual"), (self.world, "joint", "world"))):
+        for row, (variable, off, on) in enumerate(((self.relative, _("machine"), _("relative")), (self.actual, _("commanded"), _("actual")), (self.world, _("joint"), _("world")))):
             for column, (text, value) in enumerate(((on, 1), (off, 0))):
                 button = ttk.Radiobutton(choice, text=text, value=value, variable=variable, takefocus=False, command=self.choose_world if variable is self.world else None)
                 button.grid(row=row, column=column, sticky="w")
@@ -156,20 +170,20 @@ class Window:
             button.bind("<ButtonPress-1>", lambda event, d=direction: self.start_jog(self.selected.get(), d))
             button.bind("<ButtonRelease-1>", lambda event: self.stop_jog())
             button.pack(side="left", padx=px(2))
-        self.home_button = ttk.Button(jog, text="Home", command=self.home, takefocus=False)
+        self.home_button = ttk.Button(jog, text=_("Home"), command=self.home, takefocus=False)
         self.home_button.pack(side="left", padx=px(2))
-        ttk.Checkbutton(jog, text="override limits", variable=self.override, takefocus=False,
+        ttk.Checkbutton(jog, text=_("override limits"), variable=self.override, takefocus=False,
                         command=lambda: m.command.override_limits()).pack(side="left", padx=px(4))
-        self.increments = ttk.Combobox(box, textvariable=self.incremental, values=["continuous"] + m.increments, state="readonly", takefocus=False, width=14)
+        self.increments = ttk.Combobox(box, textvariable=self.incremental, values=[CONTINUOUS] + m.increments, state="readonly", takefocus=False, width=14)
         self.increments.pack(fill="x", pady=px(4))
         self.scales = {}
-        for name, variable, most in (("Jog speed (linear)", self.linear, m.max_linear), ("Jog speed (angular)", self.angular, m.max_angular)):
+        for name, variable, most in ((N_("Jog speed (linear)"), self.linear, m.max_linear), (N_("Jog speed (angular)"), self.angular, m.max_angular)):
             self.scales[name] = self.scale(box, name, variable, 0, most)
         self.feed, self.spindle = tk.DoubleVar(self.root, 100), tk.DoubleVar(self.root, 100)
         find = m.ini.find
-        self.scales["feed"] = self.scale(box, "Feed override %", self.feed, 0, 100 * float(find("DISPLAY", "MAX_FEED_OVERRIDE") or 1.2),
+        self.scales["feed"] = self.scale(box, N_("Feed override %"), self.feed, 0, 100 * float(find("DISPLAY", "MAX_FEED_OVERRIDE") or 1.2),
                                          lambda v: m.command.feedrate(float(v) / 100))
-        self.scales["spindle"] = self.scale(box, "Spindle override %", self.spindle, 100 * float(find("DISPLAY", "MIN_SPINDLE_OVERRIDE") or 0),
+        self.scales["spindle"] = self.scale(box, N_("Spindle override %"), self.spindle, 100 * float(find("DISPLAY", "MIN_SPINDLE_OVERRIDE") or 0),
                                             100 * float(find("DISPLAY", "MAX_SPINDLE_OVERRIDE") or 1), lambda v: m.command.spindleoverride(float(v) / 100))
 
     def scale(self, parent, text, variable, low, high, command=None):
@@ -180,8 +194,8 @@ class Window:
         slider = ttk.Scale(row, from_=low, to=high, variable=variable, length=self.style.px(140), command=command, takefocus=False)
         slider.pack(side="right")
 
-        def show(*_):
-            label.configure(text=f"{text}: {variable.get():.0f}")
+        def show(*_event):
+            label.configure(text=f"{_(text)}: {variable.get():.0f}")
         variable.trace_add("write", show)
         show()
         return slider
@@ -203,10 +217,10 @@ class Window:
         row = ttk.Frame(self.root, padding=px(6))
         row.pack(side="bottom", fill="x")
         self.program_buttons = {}
-        for name, action in (("Open", self.open), ("Run", self.run), ("Pause", m.pause), ("Resume", m.resume), ("Step", m.step), ("Verify", m.verify)):
-            self.program_buttons[name] = ttk.Button(row, text=name, command=action, takefocus=False)
+        for name, action in ((N_("Open"), self.open), (N_("Run"), self.run), (N_("Pause"), m.pause), (N_("Resume"), m.resume), (N_("Step"), m.step), (N_("Verify"), m.verify)):
+            self.program_buttons[name] = ttk.Button(row, text=_(name), command=action, takefocus=False)
             self.program_buttons[name].pack(side="left", expand=True, fill="x", padx=px(2))
-        ttk.Checkbutton(row, text="Optional Stop", variable=self.optional_stop, takefocus=False,
+        ttk.Checkbutton(row, text=_("Optional Stop"), variable=self.optional_stop, takefocus=False,
                         command=lambda: m.command.set_optional_stop(self.optional_stop.get())).pack(side="left", padx=px(4))
         self.program_label = ttk.Label(self.root, anchor="w", padding=(px(6), 0))
         self.program_label.pack(side="top", fill="x")
@@ -315,7 +329,7 @@ class Window:
         if self.m.stat.task_mode == linuxcnc.MODE_MANUAL:
             text = self.incremental.get()
             self.selected.set(row)
-            self.jog.start(row, direction, self.m.speed(row, self.linear.get(), self.angular.get()), None if text == "continuous" else text, key)
+            self.jog.start(row, direction, self.m.speed(row, self.linear.get(), self.angular.get()), None if text == CONTINUOUS else text, key)
 
     def stop_jog(self):
         for pending in self.releases.values():
@@ -330,7 +344,7 @@ class Window:
         variable.set(min(max(variable.get() + step * most / 20, 0), most))
 
     def toggle_continuous(self):
-        self.incremental.set("continuous" if self.incremental.get() != "continuous" or not self.m.increments else self.m.increments[0])
+        self.incremental.set(CONTINUOUS if self.incremental.get() != CONTINUOUS or not self.m.increments else self.m.increments[0])
 
     def next_increment(self):
         values = self.m.increments
@@ -363,7 +377,7 @@ class Window:
 
     def open(self):
         folder = os.path.expanduser(self.m.ini.find("DISPLAY", "PROGRAM_PREFIX") or ".")
-        path = filedialog.askopenfilename(parent=self.root, title="Open", initialdir=folder, filetypes=(("G-code", "*.ngc *.nc *.tap"), ("All files", "*")))
+        path = filedialog.askopenfilename(parent=self.root, title=_("Open"), initialdir=folder, filetypes=((_("G-code"), "*.ngc *.nc *.tap"), (_("All files"), "*")))
         if path:
             self.open_file(path)
 
@@ -392,7 +406,7 @@ class Window:
             messagebox.showerror(TITLE, f"{words[0]}: {error.strerror}", parent=self.root)
 
     def choose_font(self):
-        size = simpledialog.askinteger("Font", "Height of the position's digits (pixels)", parent=self.root, initialvalue=abs(self.font.cget("size")),
+        size = simpledialog.askinteger(_("Font"), _("Height of the position's digits (pixels)"), parent=self.root, initialvalue=abs(self.font.cget("size")),
                                        minvalue=8, maxvalue=200)
         if size:
             self.font.configure(size=-size)
@@ -400,10 +414,10 @@ class Window:
     def help(self):
         name = self.m.ini.find("DISPLAY", "HELP_FILE")
         path = next((p for p in (self.m.path.parent / name, Path(name)) if p.is_file()), None) if name else None
-        self.popups.text("Help", path.read_text(errors="replace") if path else HELP)
+        self.popups.text(_("Help"), path.read_text(errors="replace") if path else HELP)
 
     def about(self):
-        messagebox.showinfo(TITLE, f"{TITLE}\nVersion {Tree.find().version()}", parent=self.root)
+        messagebox.showinfo(TITLE, _("%s\nVersion %s") % (TITLE, Tree.find().version()), parent=self.root)
 
     # -- status -------------------------------------------------------------------------
 
@@ -420,9 +434,9 @@ class Window:
     def show(self):
         s, buttons = self.m.stat, self.state_buttons
         spindle = s.spindle[0]
-        direction = {1: "FORWARD", -1: "REVERSE"}.get(spindle["direction"], "OFF")
-        for name, text in (("estop", STATES.get(s.task_state, "?")), ("mist", f"MIST {'ON' if s.mist else 'OFF'}"), ("spindle", f"SPINDLE {direction}"),
-                           ("brake", f"BRAKE {'ON' if spindle['brake'] else 'OFF'}"), ("flood", f"FLOOD {'ON' if s.flood else 'OFF'}"),
+        direction = {1: 0, -1: 1}.get(spindle["direction"], 2)
+        for name, text in (("estop", STATES.get(s.task_state, "?")), ("mist", SHOWN["mist"][not s.mist]), ("spindle", SHOWN["spindle"][direction]),
+                           ("brake", SHOWN["brake"][not spindle["brake"]]), ("flood", SHOWN["flood"][not s.flood]),
                            ("mode", MODES.get(s.task_mode, "?"))):
             buttons[name].configure(text=text)
         joints = not self.world.get()
@@ -435,7 +449,7 @@ class Window:
             value.configure(text="%10.4f" % self.m.position(row, joints, self.relative.get(), self.actual.get(), self.units.get()) if shown else "",
                             foreground=colours["good" if homed else "bad"])
         unit = self.m.unit_name(self.units.get())
-        self.info.configure(text=f"Units: {unit}\nTool: {s.tool_in_spindle}\nSystem: G{self.m.system_name()}")
+        self.info.configure(text=_("Units: %s\nTool: %s\nSystem: G%s") % (unit, s.tool_in_spindle, self.m.system_name()))
         gcodes = " ".join(f"G{c / 10:g}" for c in s.gcodes[1:] if c != -1)
         self.codes.configure(text=f"{gcodes}  " + " ".join(f"M{c:g}" for c in s.mcodes[1:] if c != -1) + f"  F{s.settings[1]:.0f} S{s.settings[2]:.0f}")
         self.optional_stop.set(bool(s.optional_stop))
@@ -446,8 +460,8 @@ class Window:
 
     def show_program(self):
         s = self.m.stat
-        status = {linuxcnc.INTERP_IDLE: "idle", linuxcnc.INTERP_PAUSED: "paused"}.get(s.interp_state, "running")
-        self.program_label.configure(text=f"Program: {s.file or 'none'}  -  Status: {status}")
+        status = {linuxcnc.INTERP_IDLE: N_("idle"), linuxcnc.INTERP_PAUSED: N_("paused")}.get(s.interp_state, N_("running"))
+        self.program_label.configure(text=_("Program: %s  -  Status: %s") % (s.file or _("none"), _(status)))
         if s.file != self.loaded:
             self.loaded = s.file
             try:
@@ -478,7 +492,7 @@ class Window:
         self.root.destroy()
 
 
-HELP = """F1 emergency stop        F2 machine on and off
+HELP = _("""F1 emergency stop        F2 machine on and off
 F3 manual   F4 auto   F5 MDI   F6 reset the interpreter   Esc abort
 
 Manual
@@ -494,7 +508,7 @@ Display
   @ actual or commanded    # relative or machine    $ joint or world
 Any
   Alt-o open   Alt-t tool offset   Alt-x exit
-"""
+""")
 
 
 def source_user_file(root, machine):

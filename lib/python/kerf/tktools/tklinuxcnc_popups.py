@@ -6,10 +6,12 @@ from tkinter import messagebox, ttk
 
 import linuxcnc
 
+from ..language import _, N_
 from .machine import LETTERS
 
+TOOL, LENGTH, DIAMETER = _("Tool"), _("Length"), _("Diameter")
 PLOT_MS, PLOT_POINTS = 100, 20000
-OFFSETS = (("work (G5x)", "g5x_offset"), ("G92", "g92_offset"), ("tool", "tool_offset"))
+OFFSETS = ((N_("work (G5x)"), "g5x_offset"), ("G92", "g92_offset"), (N_("tool"), "tool_offset"))
 
 
 class Popups:
@@ -25,7 +27,7 @@ class Popups:
 
     def text(self, title, text):
         top, px = self.open(title), self.w.style.px
-        ttk.Button(top, text="Close", command=top.destroy).pack(side="bottom", pady=px(6))
+        ttk.Button(top, text=_("Close"), command=top.destroy).pack(side="bottom", pady=px(6))
         box = tk.Text(top, width=84, height=24, wrap="none")
         bar = ttk.Scrollbar(top, command=box.yview)
         box.configure(yscrollcommand=bar.set)
@@ -38,9 +40,9 @@ class Popups:
     def message(self, text, error):
         """Stays until OK; the machine goes on. The same text is not shown twice."""
         self.shown = [(t, top) for t, top in self.shown if top.winfo_exists()]
-        if any(t == text for t, _ in self.shown):
+        if any(t == text for t, _top in self.shown):
             return
-        top, px = self.open("Error" if error else "Message"), self.w.style.px
+        top, px = self.open(_("Error") if error else _("Message")), self.w.style.px
         ttk.Label(top, text=text, wraplength=px(480), padding=px(16), style="Bad.TLabel" if error else "TLabel").pack()
         ttk.Button(top, text="OK", command=top.destroy).pack(pady=(0, px(10)))
         self.shown.append((text, top))
@@ -49,17 +51,17 @@ class Popups:
         """Offsets in force, and the file of parameters as it was saved last."""
         m = self.w.m
         m.stat.poll()
-        lines = ["Offset      " + "".join(f"{c:>12}" for c in m.letters)]
+        lines = [f"{_('Offset'):12}" + "".join(f"{c:>12}" for c in m.letters)]
         for name, attribute in OFFSETS:
             values = getattr(m.stat, attribute)
-            lines.append(f"{name:12}" + "".join("%12.4f" % values[LETTERS.index(c)] for c in m.letters))
+            lines.append(f"{_(name):12}" + "".join("%12.4f" % values[LETTERS.index(c)] for c in m.letters))
         name = m.ini.find("RS274NGC", "PARAMETER_FILE")
         if name:
             try:
-                lines += ["", f"Variables ({name}):"] + (m.path.parent / name).read_text(errors="replace").splitlines()
+                lines += ["", _("Variables (%s):") % name] + (m.path.parent / name).read_text(errors="replace").splitlines()
             except OSError as error:
                 lines.append(f"{name}: {error.strerror}")
-        self.text("Offsets and Variables", "\n".join(lines))
+        self.text(_("Offsets and Variables"), "\n".join(lines))
 
     def mdi(self, text):
         m = self.w.m
@@ -91,7 +93,7 @@ class Popups:
         buttons = ttk.Frame(top, padding=px(6))
         buttons.pack()
         ttk.Button(buttons, text="OK", command=accept).pack(side="left", padx=px(4))
-        ttk.Button(buttons, text="Cancel", command=top.destroy).pack(side="left", padx=px(4))
+        ttk.Button(buttons, text=_("Cancel"), command=top.destroy).pack(side="left", padx=px(4))
         top.bind("<Return>", accept)
         next(iter(entries.values())).focus_set()
         self.last_form = (top, entries, accept)
@@ -101,12 +103,12 @@ class Popups:
         m = self.w.m
         m.stat.poll()
         system = f"G{m.system_name()}"
-        fields = {f"{c} (now {m.position(i, False, True, True, 'auto'):.4f} {m.unit_name('auto')})": "" for i, c in enumerate(m.letters)}
+        fields = {_("%s (now %.4f %s)") % (c, m.position(i, False, True, True, 'auto'), m.unit_name('auto')): "" for i, c in enumerate(m.letters)}
 
         def act(values):
             if values:
                 self.mdi("G10 L20 P0 " + " ".join(f"{name[0]}{value:.6f}" for name, value in values.items()))
-        self.form(f"Set Coordinates of {system}", fields, act)
+        self.form(_("Set Coordinates of %s") % system, fields, act)
 
     def tool_offset(self):
         """Length and diameter of a tool go into the tool table."""
@@ -115,19 +117,19 @@ class Popups:
         tool = m.stat.tool_table[0] if m.stat.tool_table else None
 
         def act(values):
-            number = int(values.get("Tool", 0))
+            number = int(values.get(TOOL, 0))
             if number > 0:
-                self.mdi(f"G10 L1 P{number} Z{values.get('Length', 0):.6f} R{values.get('Diameter', 0) / 2:.6f}")
-        self.form("Tool offset", {"Tool": str(max(m.stat.tool_in_spindle, 0)), "Length": f"{tool.zoffset:.4f}" if tool else "0",
-                                  "Diameter": f"{tool.diameter:.4f}" if tool else "0"}, act)
+                self.mdi(f"G10 L1 P{number} Z{values.get(LENGTH, 0):.6f} R{values.get(DIAMETER, 0) / 2:.6f}")
+        self.form(_("Tool offset"), {TOOL: str(max(m.stat.tool_in_spindle, 0)), LENGTH: f"{tool.zoffset:.4f}" if tool else "0",
+                                  DIAMETER: f"{tool.diameter:.4f}" if tool else "0"}, act)
 
     def backplot(self):
         """The way of the tool from above, as it goes."""
-        top, style, m = self.open("Backplot"), self.w.style, self.w.m
+        top, style, m = self.open(_("Backplot")), self.w.style, self.w.m
         canvas = tk.Canvas(top, width=style.px(420), height=style.px(360), background=style.colours["field"], highlightthickness=0)
         canvas.pack(fill="both", expand=True)
         points = []
-        ttk.Button(top, text="Clear", command=points.clear).pack(pady=style.px(4))
+        ttk.Button(top, text=_("Clear"), command=points.clear).pack(pady=style.px(4))
 
         def draw():
             place = m.stat.actual_position[:2]

@@ -18,7 +18,7 @@ POLL_MS = 2000
 LOCK = "/tmp/linuxcnc.lock"     # while a machine runs
 CHARS = {"T": 5, "P": 5, "D": 9, "I": 9, "J": 9, "Q": 6, COMMENT: 18}
 AXIS_CHARS = 8
-TITLES = {"T": "TOOL", "P": "POC", "D": "DIAM", "I": "FRONT", "J": "BACK", "Q": "ORIEN", COMMENT: "COMMENT"}
+TITLES = {"T": _("TOOL"), "P": _("POC"), "D": _("DIAM"), "I": _("FRONT"), "J": _("BACK"), "Q": _("ORIEN"), COMMENT: _("COMMENT")}
 USAGE = f"""Usage: tooledit [COLUMN...] FILE
 Edits a tool table. Columns: {' '.join(COLUMNS)} (default: all)."""
 
@@ -223,8 +223,7 @@ class Window:
         if first:
             names = {letter: name for name, letter in COLUMNS.items()}
             used = " ".join(names[letter] for letter in self.letters if letter in names)
-            messagebox.showinfo("tooledit", f"Columns used: {used}\n\nThe columns can be chosen:\n    tooledit x z diam FILE\nor in the INI file:\n"
-                                "    [DISPLAY]TOOL_EDITOR = tooledit x z diam", parent=self.root)
+            messagebox.showinfo("tooledit", _("Columns used: %s\n\nThe columns can be chosen:\n    tooledit x z diam FILE\nor in the INI file:\n    [DISPLAY]TOOL_EDITOR = tooledit x z diam") % used, parent=self.root)
 
 
 def main(arguments):

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import kerf_tooltext
 
+from ..language import _
+
 COMMENT = ";"
 WHOLE = "TPQ"               # letters whose values are whole numbers
 ANGLES = "IJ"
@@ -171,23 +173,24 @@ class Table:
         """What keeps the table from being saved, one text each."""
         found, tools, pockets = [], {}, {}
         for place, row in enumerate(self.rows, 1):
-            name = f"row {place} (tool {row.get('T') or '?'})"
+            name = _("row %d (tool %s)") % (place, row.get('T') or '?')
             for letter in ORDER:
                 text = row.get(letter).strip()
                 if letter in "TP" and not (text.isascii() and text.isdigit()):
-                    what = "tool" if letter == "T" else "pocket"
-                    found.append(f"{name}: {what} {text!r} must be a whole number, 0 or more")
+                    what = _("tool") if letter == "T" else _("pocket")
+                    found.append(_("%s: %s %r must be a whole number, 0 or more") % (name, what, text))
                 elif text and not is_number(letter, text):
-                    found.append(f"{name}: {letter} {text!r} is not a {'whole ' if letter in WHOLE else ''}number")
+                    found.append((_("%s: %s %r is not a whole number") if letter in WHOLE else _("%s: %s %r is not a number")) % (name, letter, text))
                 elif text and letter == "Q" and not 0 <= int(text) <= MAX_ORIENTATION:
-                    found.append(f"{name}: orientation {text} must be 0 to {MAX_ORIENTATION}")
+                    found.append(_("%s: orientation %s must be 0 to %d") % (name, text, MAX_ORIENTATION))
                 elif text and letter in ANGLES and abs(float(text)) > MAX_ANGLE:
-                    found.append(f"{name}: {'front' if letter == 'I' else 'back'} angle {text} must be -{MAX_ANGLE} to {MAX_ANGLE}")
-            for letter, seen, what in (("T", tools, "tool"), ("P", pockets, "pocket")):
+                    found.append((_("%s: front angle %s must be -%d to %d") if letter == "I" else _("%s: back angle %s must be -%d to %d"))
+                                 % (name, text, MAX_ANGLE, MAX_ANGLE))
+            for letter, seen, what in (("T", tools, _("tool")), ("P", pockets, _("pocket"))):
                 text = row.get(letter).strip()
                 if (letter == "T" or random_changer) and text.isdigit():
                     if int(text) in seen:
-                        found.append(f"{name}: {what} {int(text)} is also in row {seen[int(text)]}")
+                        found.append(_("%s: %s %d is also in row %d") % (name, what, int(text), seen[int(text)]))
                     seen.setdefault(int(text), place)
         return found
 

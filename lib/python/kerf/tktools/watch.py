@@ -8,6 +8,8 @@ from pathlib import Path
 import hal
 from hal import query
 
+from ..language import _
+
 KINDS = ("pin", "param", "sig")
 BACKUP = ".halshow_watchlist_backup"
 GONE = "----"
@@ -18,7 +20,7 @@ def split(word):
     """("pin", "NAME") of a word "pin+NAME". ValueError: it is none."""
     kind, plus, name = word.partition("+")
     if not plus or kind not in KINDS or not name:
-        raise ValueError(f"{word}: not one of pin+NAME, param+NAME, sig+NAME")
+        raise ValueError(_("%s: not one of pin+NAME, param+NAME, sig+NAME") % word)
     return kind, name
 
 
@@ -87,20 +89,20 @@ def convert(type_, text):
             return True
         if word in ("0", "false", "off", "no"):
             return False
-        raise ValueError(f"'{text}' is no bit: 1, 0, true or false")
+        raise ValueError(_("'%s' is no bit: 1, 0, true or false") % text)
     if type_ == "float":
         try:
             return float(text)
         except ValueError:
-            raise ValueError(f"'{text}' is no number") from None
+            raise ValueError(_("'%s' is no number") % text) from None
     bits = int(type_[1:])
     low, high = (-2 ** (bits - 1), 2 ** (bits - 1) - 1) if type_[0] == "s" else (0, 2 ** bits - 1)
     try:
         value = int(text, 16 if "x" in text.lower() else 10)
     except ValueError:
-        raise ValueError(f"'{text}' is no whole number") from None
+        raise ValueError(_("'%s' is no whole number") % text) from None
     if not low <= value <= high:
-        raise ValueError(f"{text} is out of range: {low} to {high}")
+        raise ValueError(_("%s is out of range: %s to %s") % (text, low, high))
     return value
 
 

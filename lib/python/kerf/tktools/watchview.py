@@ -5,6 +5,7 @@ import tkinter as tk
 import tkinter.font
 from tkinter import simpledialog, ttk
 
+from ..language import _
 from .watch import Item
 
 COLOURS = {"pin": "pin", "sig": "signal", "param": "param"}
@@ -99,9 +100,9 @@ class WatchView(ttk.Frame):
 
     def make_buttons(self, row, x, y):
         if row.item.type == "bit":
-            actions = [("Tgl", lambda: self.set(row, not row.item.value())), ("Set", lambda: self.set(row, True)), ("Clr", lambda: self.set(row, False))]
+            actions = [(_("Tgl"), lambda: self.set(row, not row.item.value())), (_("Set"), lambda: self.set(row, True)), (_("Clr"), lambda: self.set(row, False))]
         else:
-            actions = [("Set val", lambda: self.ask(row))]
+            actions = [(_("Set val"), lambda: self.ask(row))]
         frame = ttk.Frame(self.canvas, style="Field.TFrame")
         ttk.Style(self).configure("Field.TFrame", background=self.style.colours["field"])
         for text, action in actions:
@@ -158,7 +159,7 @@ class WatchView(ttk.Frame):
 
     def ask(self, row):
         value = row.item.value()
-        text = self.ask_value("Set value", f"{row.item.name} ({row.item.type})", parent=self, initialvalue=self.formats.text("", value) if value is None
+        text = self.ask_value(_("Set value"), f"{row.item.name} ({row.item.type})", parent=self, initialvalue=self.formats.text("", value) if value is None
                               else repr(value) if row.item.type == "float" else str(int(value)))
         if text is not None and text.strip():
             self.set(row, text)
@@ -166,7 +167,7 @@ class WatchView(ttk.Frame):
     def unlink(self, row):
         try:
             self.tk.call("hal", "unlinkp", row.item.name)
-            self.say(f"{row.item.name} is not connected any more")
+            self.say(_("%s is not connected any more") % row.item.name)
         except tk.TclError as error:
             self.say(str(error), True)
         self.layout()
@@ -185,22 +186,22 @@ class WatchView(ttk.Frame):
 
     def row_menu(self, menu, row):
         item = row.item
-        menu.add_command(label="Copy", command=lambda: self.copy(item.name))
+        menu.add_command(label=_("Copy"), command=lambda: self.copy(item.name))
         writable = "normal" if item.access == "write" else "disabled"
         if item.type == "bit":
-            menu.add_command(label="Set to TRUE", state=writable, command=lambda: self.set(row, True))
-            menu.add_command(label="Set to FALSE", state=writable, command=lambda: self.set(row, False))
+            menu.add_command(label=_("Set to TRUE"), state=writable, command=lambda: self.set(row, True))
+            menu.add_command(label=_("Set to FALSE"), state=writable, command=lambda: self.set(row, False))
         else:
-            menu.add_command(label="Set to ..", state=writable, command=lambda: self.ask(row))
+            menu.add_command(label=_("Set to .."), state=writable, command=lambda: self.ask(row))
         if item.kind == "pin" and item.info and item.info["signal"]:
-            menu.add_command(label=f"Unlink pin (from {item.info['signal']})", command=lambda: self.unlink(row))
-        menu.add_command(label="Show in Tree", state="normal" if item.info else "disabled", command=lambda: self.show_in_tree(item))
+            menu.add_command(label=_("Unlink pin (from %s)") % item.info["signal"], command=lambda: self.unlink(row))
+        menu.add_command(label=_("Show in Tree"), state="normal" if item.info else "disabled", command=lambda: self.show_in_tree(item))
         menu.add_separator()
-        menu.add_command(label="Remove", command=lambda: self.remove(row))
+        menu.add_command(label=_("Remove"), command=lambda: self.remove(row))
 
     def copy(self, text):
         self.clipboard_clear()
         self.clipboard_append(text)
-        self.say(f"Copied: {text}")
+        self.say(_("Copied: %s") % text)
 
 
