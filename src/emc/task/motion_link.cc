@@ -413,7 +413,7 @@ int MotionLink::set_debug(unsigned mask) {
 int MotionLink::spindle_off(int spindle, int wait) {
     emcmot_command_t c = command(EMCMOT_SPINDLE_OFF);
     c.spindle = spindle;
-    last_state_ = c.state = 0;
+    started(spindle, 0);
     last_wait_ = wait;
     c.wait_for_spindle_at_speed = static_cast<unsigned char>(wait);
     return send(c);
@@ -531,30 +531,33 @@ int MotionLink::set_aout(int index, double start, double end, int now) {
 bool MotionLink::spindle_runs_at(int spindle, double speed, double factor) const {
     if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || speed == 0 || factor != 0) return false;
     const spindle_status_t &s = status_->spindle_status[spindle];
-    return s.state && last_state_ && s.speed == speed && s.css_factor == 0 && !s.brake;
+    return s.state && started_[spindle] && s.speed == speed && s.css_factor == 0 && !s.brake;
+}
+
+void MotionLink::started(int spindle, int on) {
+    for (int s = 0; s < EMCMOT_MAX_SPINDLES; s++)
+        if (spindle < 0 || spindle == s) started_[s] = on;
+}
+
+int MotionLink::spindle_order(int spindle, double speed, double factor, double xoffset) {
+    emcmot_command_t c = command(EMCMOT_SPINDLE_ON);
+    c.spindle = spindle;
+    c.vel = speed;
+    c.ini_maxvel = factor;
+    c.acc = xoffset;
+    c.state = spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES ? started_[spindle] : started_[0];
+    c.wait_for_spindle_at_speed = static_cast<unsigned char>(last_wait_);
+    return send(c);
 }
 
 int MotionLink::spindle_on(int spindle, double speed, double factor, double xoffset, int wait) {
-    emcmot_command_t c = command(EMCMOT_SPINDLE_ON);
-    c.spindle = spindle;
-    c.vel = speed;
-    c.ini_maxvel = factor;
-    c.acc = xoffset;
-    last_state_ = c.state = 1;
+    started(spindle, 1);
     last_wait_ = wait;
-    c.wait_for_spindle_at_speed = static_cast<unsigned char>(wait);
-    return send(c);
+    return spindle_order(spindle, speed, factor, xoffset);
 }
 
 int MotionLink::spindle_speed(int spindle, double speed, double factor, double xoffset) {
-    emcmot_command_t c = command(EMCMOT_SPINDLE_ON);
-    c.spindle = spindle;
-    c.vel = speed;
-    c.ini_maxvel = factor;
-    c.acc = xoffset;
-    c.state = last_state_;
-    c.wait_for_spindle_at_speed = static_cast<unsigned char>(last_wait_);
-    return send(c);
+    return spindle_order(spindle, speed, factor, xoffset);
 }
 
 int MotionLink::spindle_command(cmd_code_t code, int spindle) {
@@ -566,6 +569,7 @@ int MotionLink::spindle_command(cmd_code_t code, int spindle) {
 int MotionLink::spindle_orient(int spindle, double orientation, int mode) {
     emcmot_command_t c = command(EMCMOT_SPINDLE_ORIENT);
     c.spindle = spindle;
+    started(spindle, 0);
     c.orientation = orientation;
     c.mode = static_cast<unsigned char>(mode);
     return send(c);

@@ -124,6 +124,8 @@ private:
     emcmot_command_t joint_command(cmd_code_t code, int j) const;
     emcmot_command_t axis_command(cmd_code_t code, int a) const;
     int send_move(emcmot_command_t &c);
+    void started(int spindle, int on); // -1 all
+    int spindle_order(int spindle, double speed, double factor, double xoffset);
     EMC_STAT &stat_;
     emcmot_status_t statuses_[2] = {};
     emcmot_status_t *status_ = &statuses_[0], *next_status_ = &statuses_[1]; // the last whole one; the other is read into
@@ -133,7 +135,8 @@ private:
     bool settling_ = false;          // a move was given that the status does not show yet
     uint64_t settle_from_ = 0;
     bool joint_error_shown_[EMCMOT_MAX_JOINTS] = {};
-    int last_state_ = 0, last_wait_ = 0; // an S word sends these again
+    int started_[EMCMOT_MAX_SPINDLES] = {}; // by an order to start, not stopped or oriented since
+    int last_wait_ = 0;                     // an S word sends it again
 };
 
 #endif

@@ -478,7 +478,8 @@ int Task::plan_pause() {
 
 int Task::plan_resume() {
     int r = motion_.send(EMCMOT_RESUME);
-    stat_.task.interpState = remembered_interp_;
+    if (stat_.task.interpState == EMC_TASK_INTERP_PAUSED) // else what is remembered is of an earlier run
+        stat_.task.interpState = remembered_interp_;
     stat_.task.task_paused = 0;
     stop_stepping();
     return r;
