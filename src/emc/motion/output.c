@@ -154,7 +154,8 @@ static void debug_output(struct motion *m)
 void phase_output(struct motion *m)
 {
     struct motion_pins *p = m->pins;
-    const emcmot_status_t *s = m->status;
+    emcmot_status_t *s = m->status;
+    s->current_vel = current_velocity(m);
     hal_set_bool(p->motion_enabled, is_enabled(m));
     hal_set_bool(p->in_position, is_inpos(m));
     hal_set_bool(p->coord_mode, is_coord(m));
@@ -165,7 +166,7 @@ void phase_output(struct motion *m)
     hal_set_bool(p->is_all_homed, get_allhomed());
     m->jog_was_active = any_jog_active(m);
     hal_set_bool(p->jog_is_active, m->jog_was_active);
-    hal_set_real(p->current_vel, current_velocity(m));
+    hal_set_real(p->current_vel, s->current_vel);
     hal_set_real(p->requested_vel, s->motion_state == EMCMOT_MOTION_COORD ? s->requested_vel : 0.0);
     hal_set_real(p->distance_to_go, s->distance_to_go);
     hal_set_si32(p->program_line, s->id);

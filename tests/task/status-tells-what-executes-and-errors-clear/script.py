@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-127, FP-128, FP-129, FP-139: units, codes, line and file of status are those of the move that is
+# FP-128, FP-129, FP-139: units, codes, line and file of status are those of the move that is
 # made; an error belongs to the command that caused it; opening twice is no error.
 from mill import *
 
@@ -30,13 +30,13 @@ print(c.wait_complete(), messages())
 c.auto(AUTO_RUN, 0)
 print(c.wait_complete(), xyz(1))
 print(run("G0 X1\nG1 X Y2 F100\nM2\n"), s.error_line if poll() else 0, s.error_column, s.error_file.rsplit("/", 1)[-1], messages())
-# FP-127: lines queue visibly, in order, and an abort drops them.
-mode(MODE_MDI)
-for line in ("M66 P0 L3 Q1", "G0 X4", "G0 X5"):
-    c.mdi(line)
-sleep(0.1)
-print("queued", poll().queued_mdi_commands)
-c.abort()
-c.wait_complete()
-sleep(1.5)
-print("after the abort", poll().queued_mdi_commands, xyz(1))
+# A jog shows its speed. In joint mode the status is EXEC while it goes on, in teleop mode it is DONE, as documented.
+mode(MODE_MANUAL)
+for teleop in (1, 0):
+    c.teleop_enable(teleop)
+    need(lambda s: s.motion_mode == (TRAJ_MODE_TELEOP if teleop else TRAJ_MODE_FREE), "jog mode")
+    c.jog(JOG_CONTINUOUS, 1 - teleop, 0, 5)
+    print("jog:", c.wait_complete(0.5), poll().state, s.inpos, round(s.current_vel, 3), getp("motion.current-vel"))
+    c.jog(JOG_STOP, 1 - teleop, 0)
+    sleep(1)
+    print("over:", poll().state, s.inpos, s.current_vel)
