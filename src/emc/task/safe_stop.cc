@@ -3,7 +3,7 @@
 // safe_stop.cc - `kerf-safe-stop -ini FILE`: what task did at its end when it can not do it any more.
 //
 // In:     motion's command block
-// Out:    motion aborted and disabled, spindles off. What task's pins fed falls when HAL removes its
+// Out:    motion aborted and disabled, spindles and digital outputs off. What task's pins fed falls when HAL removes its
 //         component, at the latest now (hal_init)
 // Thread: [task]; the launcher runs it when task has died, never beside a task that lives
 #include <cstdio>
@@ -18,12 +18,23 @@ namespace {
 
 constexpr double ECHO_S = 0.2; // of a motion that runs; one that does not can not move anything
 
-bool order(cmd_code_t what, int spindle = 0) {
+bool order(cmd_code_t what, int spindle = 0, int output = 0) {
     emcmot_command_t c;
     memset(&c, 0, sizeof c);
     c.command = what;
     c.spindle = spindle;
+    c.out = static_cast<unsigned char>(output);
+    c.now = 1;
     return usrmotWriteEmcmotCommand(&c) == EMCMOT_COMM_OK;
+}
+
+// Those of M62 and M64: bits that task drove, like its pins.
+bool digital_outputs_off() {
+    emcmot_status_t s;
+    bool good = usrmotReadEmcmotStatus(&s) == 0;
+    for (int i = 0; good && i < EMCMOT_MAX_DIO; i++)
+        if (s.synch_do[i]) good = order(EMCMOT_SET_DOUT, 0, i);
+    return good;
 }
 
 } // namespace
@@ -45,6 +56,7 @@ int main(int argc, char **argv) {
         good = order(EMCMOT_ABORT);
         for (int s = 0; good && s < spindles; s++) good = order(EMCMOT_SPINDLE_OFF, s);
         good = order(EMCMOT_DISABLE) && good;
+        good = digital_outputs_off() && good;
         usrmotExit();
     }
     hal_exit(comp);

@@ -2,28 +2,12 @@
 # VICTIM display: the screen is killed while a jog key is held. VICTIM halui: the other operator's interface is.
 import os
 import signal
-import sys
-from pathlib import Path
 
 import hal
 import linuxcnc
 import operator_lib as lib
+import session
 from kerf import clock
-
-
-def session_of(folder):
-    """What the programs of one session have in common."""
-    return [e for e in (folder / "environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")]
-
-
-def kill(name):
-    own = session_of(Path("/proc/self"))
-    for p in Path("/proc").iterdir():
-        try:
-            if (p / "comm").read_text() == name + "\n" and session_of(p) == own:
-                os.kill(int(p.name), signal.SIGKILL)
-        except OSError:
-            pass
 
 
 def onlooker(out):
@@ -56,7 +40,7 @@ def script(op):
             onlooker(out)
         clock.sleep(0.05)
         os.kill(os.getpid(), signal.SIGKILL)
-    kill("halui")
+    session.kill("halui")
     op.wait(0.5)
     print("halui is killed: still", "moves" if abs(op.stat.joint[0]["velocity"]) > 0 else "stands", end=", ", file=out)
     op.let_go("Left")

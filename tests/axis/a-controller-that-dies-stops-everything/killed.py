@@ -5,21 +5,8 @@ import sys
 
 import hal
 import operator_lib as lib
+import session
 from kerf import clock
-
-
-def task_of(ini):
-    """Process of the task that runs this configuration."""
-    for entry in os.listdir("/proc"):
-        if entry.isdigit():
-            try:
-                with open(f"/proc/{entry}/cmdline", "rb") as f:
-                    words = f.read().split(b"\0")
-            except OSError:
-                continue
-            if b"milltask" in words[0] and any(os.path.realpath(w) == os.path.realpath(ini).encode() for w in words[1:] if w):
-                return int(entry)
-    raise RuntimeError("no task")
 
 
 def enabled():
@@ -36,7 +23,7 @@ def script(op):
     op.hold("Left")
     op.wait(0.3)
     print("moves:", abs(op.stat.joint[0]["velocity"]) > 0, file=out)
-    os.kill(task_of(op.app.settings.ini_path), signal.SIGKILL)
+    session.kill("milltask")
     try:
         for _ in range(500):
             clock.sleep(0.02)

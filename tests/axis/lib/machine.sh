@@ -2,7 +2,7 @@
 # machine.sh: source it. screen_test NAME SCRIPT.py [PROGRAM]: runs a script as the display of a simulated machine.
 export KERF_CLOCK=virtual
 top=$(cd "$TEST_DIR/../../.." && pwd)
-export PYTHONPATH="$top/tests/axis/lib:$PYTHONPATH"
+export PYTHONPATH="$top/tests/axis/lib:$top/tests/lib:$PYTHONPATH"
 screen_test() { # name of a sample machine, display script, [program]
     rm -rf machine home; cp -r "$top/configs/sim/$1" machine; mkdir home
     sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" machine/$1.ini

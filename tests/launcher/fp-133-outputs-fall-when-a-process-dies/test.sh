@@ -3,7 +3,7 @@
 # the realtime part still runs, outputs and enables fall and motion ends.
 export KERF_CLOCK=virtual KERF_INSTANCE=${KERF_INSTANCE:-falls}
 out=$(mktemp -d); trap 'rm -rf "$out"' EXIT
-export HOME=$out
+export HOME=$out PYTHONPATH=$PWD/../../lib:$PYTHONPATH
 cp -r "$EMC2_HOME/configs/sim/mill" "$out/machine"
 here=$PWD
 sed -i 's/^HALUI *=.*//; s/^\[TRAJ\]/[TRAJ]\nNO_FORCE_HOMING = 1/' "$out/machine/mill.ini"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import hal
 import linuxcnc
+import session
 from kerf import clock
 
 victim, folder = sys.argv[1], Path(sys.argv[2])
@@ -37,16 +38,10 @@ def moving():
 
 while not (len(high()) == len(PINS) + len(SIGNALS) and moving()):
     clock.sleep(0.01)
-session = [e for e in Path("/proc/self/environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")][0]
 if os.fork():
     if victim == "display":     # it ends
         os._exit(0)
-    for p in Path("/proc").iterdir():
-        try:
-            if (p / "comm").read_text() == "milltask\n" and session in (p / "environ").read_bytes().split(b"\0"):
-                os.kill(int(p.name), signal.SIGKILL)
-        except OSError:
-            pass
+    session.kill("milltask")
     clock.leave()
     signal.pause()
 signal.signal(signal.SIGTERM, signal.SIG_IGN)    # a child looks on, to see what comes after

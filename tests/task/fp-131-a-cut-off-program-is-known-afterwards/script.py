@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-import os
 import signal
 import sys
 import time
 
+import session
 from mill import *
 
 part = sys.argv[1]
@@ -23,16 +23,6 @@ G1 Y10
 G1 X0
 M2
 """
-
-
-def kill_task():
-    session = [e for e in Path("/proc/self/environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")][0]
-    for p in Path("/proc").iterdir():
-        try:
-            if (p / "comm").read_text() == "milltask\n" and session in (p / "environ").read_bytes().split(b"\0"):
-                os.kill(int(p.name), signal.SIGKILL)
-        except OSError:
-            pass
 
 
 def gone():
@@ -62,7 +52,7 @@ if part == "cut":
     for text in journal.read_text().splitlines():
         if not text.startswith(("time", "position")):
             print("   ", text)
-    kill_task()
+    session.kill("milltask")
     signal.pause()
 elif part == "again":
     told = []

@@ -3,7 +3,7 @@
 # and modes; a start at that line shows each item first, and nothing moves before it is confirmed.
 export KERF_CLOCK=virtual
 out=$(mktemp -d); trap 'rm -rf "$out"' EXIT
-export HOME=$out PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$PWD/../lib:$PYTHONPATH
+export HOME=$out PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$PWD/../lib:$PWD/../../lib:$PYTHONPATH
 cp -r "$EMC2_HOME/configs/sim/mill" "$out/machine"
 for part in cut again end; do
     printf '#!/bin/sh\nexec /usr/bin/python3 %s/script.py %s > %s/out 2>&1\n' "$PWD" $part "$out" > "$out/display"; chmod +x "$out/display"

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""script.py STEP FOLDER: kills task STEP times 0.35 s after the program's start; FOLDER/seen says what became of the outputs."""
+import os
+import signal
+import sys
+import time
+
+import hal
+import session
+from mill import *
+
+TEXT = """G21 G90 G64
+M3 S1000
+M8
+G1 X1 F1200
+T1 M6
+G43
+G0 Z60
+G10 L1 P4 Z41
+G38.3 Z58 F300
+M4 S500
+M62 P0
+G1 X3
+T2 M6
+M3 S800
+M7
+G4 P0.4
+G1 X1 F60
+M2
+"""
+PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out", "motion.digital-out-00")
+SIGNALS = ("flood", "mist", "estop-loop", "tool-change")
+step, folder = int(sys.argv[1]), Path(sys.argv[2])
+told = []
+clock.wait_until(lambda: told.extend(messages()) or told, 0.2)
+interrupted = [t for t in told if "was cut off" in t or "interrupted" in t]
+me = hal.component("observer")
+me.ready()
+on(home=False)
+started = [p for p in PINS[:1] if hal.get_value(p)] + [x for x in ("flood", "mist", "tool-change") if hal.get_value(x)]
+mdi("M61 Q0 G49")
+mdi("G53 G0 X0 Z80")
+program(TEXT)
+c.auto(AUTO_RUN, 0)
+sleep(0.35 * step + 0.003)
+poll()
+if s.interp_state == INTERP_IDLE:
+    (folder / "last").touch()
+    print("the program was at its end;", len(told), "message at the start" if interrupted else told)
+    sys.exit()
+line = s.current_line
+while not Path("mill.var.journal").exists():    # it is written in wall time
+    time.sleep(0.01)
+if os.fork():
+    session.kill("milltask")
+    clock.leave()
+    signal.pause()
+signal.signal(signal.SIGTERM, signal.SIG_IGN)    # a child looks on
+os.setsid()
+clock.join("onlooker", 900)
+
+
+def high():
+    return {p for p in PINS if hal.get_value(p)} | {x for x in SIGNALS if hal.get_value(x)}
+
+
+def axes():
+    return [hal.get_value(f"joint.{j}.motor-pos-cmd") for j in range(3)]
+
+
+left = high()
+rose, at, before = set(), axes(), None
+try:
+    while True:
+        rose |= high() - left
+        left, before, at = high(), at, axes()
+        clock.sleep(0.001)
+except RuntimeError:        # the pins are gone
+    pass
+(folder / "seen.new").write_text(f"line {line}: rose {sorted(rose)}, on at the end {sorted(left)}, motion {'goes on' if at != before else 'stands'}; "
+                                 f"at the start {started} {len(interrupted)} told\n")
+os.rename(folder / "seen.new", folder / "seen")
+os._exit(0)
