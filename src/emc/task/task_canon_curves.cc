@@ -61,7 +61,7 @@ void TaskCanon::ARC_FEED(int line, double first_end, double second_end, double f
 void TaskCanon::arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation, double axis_end,
                     const EmcPose &end) {
     double c = std::cos(rotation_ * M_PI / 180), s = std::sin(rotation_ * M_PI / 180);
-    const V3 rot_x{c, s, 0}, rot_y{-s, c, 0}, z{0, 0, 1};
+    const V3 rot_x{c, s, 0}, rot_y{0 - s, c, 0}, z{0, 0, 1}; // no -0
     V3 first, second, normal;
     int i1, i2, i3; // axes of the plane and its normal
     EmcPose target = end, middle = {};
