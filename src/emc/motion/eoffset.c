@@ -100,10 +100,17 @@ void eoffsets_hand_over(struct motion *m)
     }
 }
 
-void eoffsets_asked(const struct motion *m, double asked[EMCMOT_MAX_AXIS])
+void eoffsets_asked(struct motion *m, double asked[EMCMOT_MAX_AXIS])
 {
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
-        asked[n] = m->axis[n].ext_offset_tp.enable ? m->axis[n].ext_offset_tp.pos_cmd : NAN;
+    m->status->offsets_leave = 0;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        simple_tp_t *e = &m->axis[n].ext_offset_tp;
+        asked[n] = e->enable ? e->pos_cmd : NAN;
+        if (!e->enable || !(m->status->offsets_spare >> n & 1))
+            continue;
+        e->pos_cmd = 0.0;
+        m->status->offsets_leave |= e->curr_pos != 0.0 || e->curr_vel != 0.0;
+    }
 }
 
 void eoffsets_hold(struct motion *m)

@@ -307,7 +307,7 @@ void axis_apply_eoffsets(const struct motion *m, EmcPose *pose, int direction);
 void axis_zero_eoffsets(struct motion *m);
 int axis_eoffsets_applied(const struct motion *m, EmcPose *offsets);
 /* The targets of enabled offsets, else NAN; stops all offsets; gives the targets back. */
-void eoffsets_asked(const struct motion *m, double asked[EMCMOT_MAX_AXIS]);
+void eoffsets_asked(struct motion *m, double asked[EMCMOT_MAX_AXIS]);
 void eoffsets_hold(struct motion *m);
 void eoffsets_release(struct motion *m, const double asked[EMCMOT_MAX_AXIS]);
 /* One step of period T (s) towards a target within [lo, hi]; the planner's own target stays. */

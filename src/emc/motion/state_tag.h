@@ -46,6 +46,7 @@ typedef enum {
     GM_FIELD_M_MODES_4,
     GM_FIELD_ORIGIN,
     GM_FIELD_TOOLCHANGE,
+    GM_FIELD_MACHINE_AXES, /* bit n: the move ends at a machine coordinate of axis n (G53, G28, G30) */
     GM_FIELD_MAX_FIELDS
 } StateField;
 

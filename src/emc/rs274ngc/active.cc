@@ -81,6 +81,15 @@ void update_tag(Setup &s)
     s.canon.UPDATE_TAG(tag);
 }
 
+// Axes that the move brings to a machine coordinate.
+static int machine_axes(const Setup &s)
+{
+    if (!s.stored_leg && s.block.g_modes[GM_MODAL_0] != G_53) return 0;
+    int axes = 0;
+    for (int i = 0; i < AXES; ++i) axes |= int(s.block.has_axis(i) || !s.block.any_axis()) << i;
+    return axes;
+}
+
 void fill_tag(const Setup &s, state_tag_t *tag)
 {
     int *f = tag->fields;
@@ -92,6 +101,7 @@ void fill_tag(const Setup &s, state_tag_t *tag)
     f[GM_FIELD_M_MODES_4] = s.last_stop;
     f[GM_FIELD_ORIGIN] = system_g(s.origin_index);
     f[GM_FIELD_TOOLCHANGE] = s.last_toolchange;
+    f[GM_FIELD_MACHINE_AXES] = machine_axes(s);
     unsigned flags = 0;
     auto flag = [&](int bit, bool on) { flags |= unsigned(on) << bit; };
     flag(GM_FLAG_UNITS, s.units == CANON_UNITS_INCHES);

@@ -58,7 +58,9 @@ int convert_home(Setup &s, int g)
         if (!s.wrapped[n] || axis(end, ax) == axis(s.current, ax)) continue;
         axis(end, ax) = axis(s.current, ax) + wrap_360(axis(end, ax) - axis(s.current, ax));
     }
+    s.stored_leg = true;
     home_leg(s, end);
+    s.stored_leg = false;
     return INTERP_OK;
 }
 

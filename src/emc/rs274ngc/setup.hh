@@ -224,6 +224,7 @@ struct Setup {
     bool lathe_diameter = false;
     CANON_MOTION_MODE control_mode = CANON_CONTINUOUS;
     double tolerance = 0, naivecam_tolerance = 0;
+    bool stored_leg = false; // G28, G30: on the way to the stored point
     double feed_rate = 0;
     double last_f = 0; // last F word seen (reported after M2 until the synch)
     double traverse_rate = 0;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
- * module.c - the realtime module tpmod: exports the planner's functions to motmod.
+ * module.c - the realtime module tpmod: parameters; exports the planner's functions to motmod.
  */
 #include "hal.h"
 #include "rtapi.h"
 #include "rtapi_app.h"
-#include "tp.h"
+#include "tp_priv.h"
 
 MODULE_LICENSE("GPL");
 MODULE_AUTHOR("Kerf");
@@ -16,10 +16,24 @@ RTAPI_MP_STRING(tp_parms, "accepted, not used");
 
 static int comp_id;
 
+static int make_params(void)
+{
+    int r = 0;
+    tp_work_only = hal_malloc(PATH_AXES * sizeof *tp_work_only);
+    if (!tp_work_only) return -1;
+    for (int n = 0; n < PATH_AXES && r >= 0; n++)
+        r = hal_param_new_bool(comp_id, HAL_RW, &tp_work_only[n], 0, "axis.%c.eoffset-work-only", "xyzabcuvw"[n]);
+    return r;
+}
+
 int rtapi_app_main(void)
 {
     comp_id = hal_init("tpmod");
     if (comp_id < 0) return comp_id;
+    if (make_params() < 0) {
+        hal_exit(comp_id);
+        return -1;
+    }
     return hal_ready(comp_id);
 }
 

@@ -18,6 +18,7 @@
 #define QUEUE_MARGIN 220  /* full so many moves before */
 
 struct tp_mot tp_mot;
+hal_bool_t *tp_work_only;
 
 static void from_pose(const EmcPose *pose, double p[PATH_AXES])
 {
@@ -392,6 +393,20 @@ static void note_no_jerk(const struct planner *pl, const struct traj_move *move,
                     "trapezoidal fallback used for such segments (reported once)\n");
 }
 
+int tp_spared_axes(const struct state_tag_t *tag)
+{
+    int axes = 0;
+    for (int n = 0; tp_work_only && n < PATH_AXES; n++)
+        axes |= (hal_get_bool(tp_work_only[n]) && (tag->fields[GM_FIELD_MACHINE_AXES] >> n & 1)) << n;
+    return axes;
+}
+
+/* External offsets leave or come back between these moves. */
+static int offsets_change(const struct move_info *prev, const struct move_info *info)
+{
+    return tp_spared_axes(&prev->tag) != tp_spared_axes(&info->tag);
+}
+
 /* Appends a move whose path, feed and info are filled in, except for outputs and sync. */
 static int append(struct planner *pl, struct traj_move *move, struct move_info *info)
 {
@@ -408,7 +423,7 @@ static int append(struct planner *pl, struct traj_move *move, struct move_info *
         const struct move_info *prev = info_of(pl, tj->end - 1);
         int goes_on = prev->sync.mode == SYNC_POSITION && prev->sync.spindle == info->sync.spindle && !prev->tap;
         if ((prev->canon == EMC_MOTION_TYPE_TRAVERSE) != (info->canon == EMC_MOTION_TYPE_TRAVERSE) ||
-            info->atspeed || prev->indexer >= 0 || info->indexer >= 0 ||
+            offsets_change(prev, info) || info->atspeed || prev->indexer >= 0 || info->indexer >= 0 ||
             (info->sync.mode == SYNC_POSITION && !goes_on))
             move->rest_before = 1;
     }

@@ -44,7 +44,7 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
     const struct traj_seg *g = traj_seg(&pl->tj, index);
     int goes_on = tp_mot.status->spindleSync && !info->tap; /* rest within a synchronised run */
 
-    if (pl->pausing) return 0;
+    if (pl->pausing || tp_mot.status->offsets_leave) return 0;
     if ((pl->unlocked_joint < 0 || pl->unlocked_for != index) && !rotary_locked(pl)) return 0;
     if ((info->atspeed || (info->sync.mode == SYNC_POSITION && !goes_on) || info->tap) && !pl->starting &&
         !tp_spindles_at_speed()) {
@@ -164,6 +164,14 @@ static void watch_standing(struct planner *pl, double place)
                         tj->place, g->s0, g->s1, tj->cell_first, tj->cell, tj->cell_end, tj->s_final);
 }
 
+/* Moves to machine coordinates are made without the offsets of the axes they name; these come back with the next move
+ * in work coordinates. */
+static void spare_offsets(const struct planner *pl)
+{
+    int *spare = &tp_mot.status->offsets_spare;
+    *spare = pl->exec_tag.fields[GM_FIELD_MACHINE_AXES] ? *spare | tp_spared_axes(&pl->exec_tag) : 0;
+}
+
 int tpRunCycle(TP_STRUCT *tp, long period)
 {
     struct planner *pl = planner_of(tp);
@@ -172,6 +180,7 @@ int tpRunCycle(TP_STRUCT *tp, long period)
     (void)period;
     if (!pl) return TP_ERR_FAIL;
     struct traj *tj = &pl->tj;
+    spare_offsets(pl);
     if (tj->end == tj->first) {
         if (pl->aborting) tp_forget_moves(tp, pl, 1);
         pl->pausing = 0; /* a pause holds the moves there are: MDI moves go on under it */
@@ -218,7 +227,7 @@ int tpRunCycle(TP_STRUCT *tp, long period)
                         pl->exec_id);
         tp_fail(pl);
     }
-    if (traj_done(tj) && rotary_locked(pl)) {
+    if (traj_done(tj) && rotary_locked(pl) && !tp_mot.status->offsets_leave) {
         tp_forget_moves(tp, pl, 1);
         idle_status(pl);
     }

@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "follow.h"
+#include "hal.h"
 #include "tp.h"
 #include "traj.h"
 
@@ -32,6 +33,14 @@ struct sync {
 
 /* What a spindle's encoder does at its index, as far as it was seen. */
 enum encoder { ENCODER_UNKNOWN, ENCODER_RESETS, ENCODER_COUNTS_ON };
+
+/* Whether the answer to a request came from a real index: a whole number of revolutions after the one before. */
+struct index_watch {
+    double revs;    /* of the last cycle, growing while the spindle turns as commanded */
+    double step;    /* its last change, revolutions a cycle */
+    double gap;     /* revolutions that the last new origin of the count took back */
+    double turned;  /* revolutions since the move asked for an index first */
+};
 
 /* The start of a move that follows a spindle's position waits for the index, then for a good estimate of the speed. */
 enum sync_start { START_NONE, START_INDEX, START_SPEED };
@@ -92,6 +101,8 @@ struct planner {
     struct sync sync;       /* of moves to come */
     enum sync_start starting; /* a move that follows a spindle's position, how far it came */
     enum encoder encoder[EMCMOT_MAX_SPINDLES];
+    char from_index[EMCMOT_MAX_SPINDLES]; /* 1: the encoder counts from an index */
+    struct index_watch index; /* of the followed spindle */
     int followed;           /* spindle of `follow`, -1 none */
     struct follower follow;
     struct tap tap;
@@ -112,6 +123,8 @@ struct tp_mot {
     emcmot_config_t *config;
 };
 extern struct tp_mot tp_mot;
+/* Parameters axis.L.eoffset-work-only, one an axis; NULL outside the module. */
+extern hal_bool_t *tp_work_only;
 
 static inline struct planner *planner_of(const TP_STRUCT *tp)
 {
@@ -131,6 +144,9 @@ static inline void to_pose(const double p[PATH_AXES], EmcPose *pose)
 }
 
 /* ---- tp.c ---- */
+
+/* Axes whose external offset must not change a move with this tag (axis.L.eoffset-work-only), a bit each. */
+int tp_spared_axes(const struct state_tag_t *tag);
 
 /* Back to an empty queue at rest where the planner is; `keep_tag`: the tag of the last move stays readable. */
 void tp_forget_moves(TP_STRUCT *tp, struct planner *pl, int keep_tag);

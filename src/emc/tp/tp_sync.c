@@ -15,6 +15,9 @@
 #define WAIT_TIME 1.0      /* s that a move waits for a spindle before the log says for what */
 #define INDEX_REVS 1.0     /* revolutions that an encoder may show right after its index, */
 #define INDEX_CYCLES 10    /* and what it turns in so many cycles more */
+#define GAP_TOLERANCE 0.05 /* revolutions by which indexes may differ from once a revolution, and */
+#define GAP_STEPS 1.5      /* as many steps of the count */
+#define GAP_TURNS 4.0      /* revolutions in which one index must be as far from another */
 
 int tp_spindles_at_speed(void)
 {
@@ -61,13 +64,60 @@ static int counts_from_index(const struct planner *pl, int n)
     return fabs(revs) <= INDEX_REVS + INDEX_CYCLES * pl->cycle * fabs(pl->follow.speed);
 }
 
+static double gap_tolerance(const struct index_watch *w)
+{
+    return GAP_TOLERANCE + GAP_STEPS * fabs(w->step);
+}
+
+/* Keeps how far the spindle has turned, and what a new origin of the count took back. */
+static void watch_index(struct index_watch *w, double revs)
+{
+    double step = revs - w->revs, jump = fabs(step - w->step);
+
+    w->revs = revs;
+    if (jump > (w->step == 0 ? 0.5 : gap_tolerance(w))) {
+        w->gap = jump;
+        step = w->step;
+    } else if (step != 0) {
+        w->step = step;
+    }
+    w->turned += fabs(step);
+}
+
 void tp_measure_spindle(struct planner *pl)
 {
     int n = pl->followed;
 
     if (n < 0) return;
-    if (follow_measure(&pl->follow, spindle_revs(n), pl->cycle) && pl->starting == START_INDEX && counts_from_index(pl, n))
-        pl->encoder[n] = ENCODER_RESETS;
+    if (pl->starting == START_INDEX) watch_index(&pl->index, spindle_revs(n));
+    if (!follow_measure(&pl->follow, spindle_revs(n), pl->cycle)) return;
+    if (pl->starting == START_INDEX && counts_from_index(pl, n)) pl->encoder[n] = ENCODER_RESETS;
+    else pl->from_index[n] = 0;
+}
+
+static void ask_for_index(struct planner *pl)
+{
+    pl->index.gap = 0;
+    tp_mot.status->spindle_status[pl->followed].spindle_index_enable = 1;
+}
+
+/* An index that came a whole number of revolutions after the one before is real. Anything else (a missing tooth seen
+ * where there is none, noise) may at most be the first of two: asks for another. */
+static int index_plausible(struct planner *pl, const struct move_info *info)
+{
+    struct index_watch *w = &pl->index;
+    int n = info->sync.spindle, known = pl->from_index[n];
+
+    pl->from_index[n] = 1;
+    if (known && w->gap > 0.5 && fabs(w->gap - round(w->gap)) <= gap_tolerance(w)) return 1;
+    if (w->turned > GAP_TURNS) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: spindle %d gives its index %.3g revolutions after the one before, not once a "
+                        "revolution: see spindle.%d.index-enable and spindle.%d.revs\n", info->id, n, w->gap, n, n);
+        tp_fail(pl);
+        return 0;
+    }
+    ask_for_index(pl);
+    return 0;
 }
 
 /* The request of an index was answered. An encoder that was seen to reset at its index must do so every time: else
@@ -78,7 +128,7 @@ static int index_accepted(struct planner *pl, const struct move_info *info)
     int n = info->sync.spindle;
     double revs = tp_mot.status->spindle_status[n].spindleRevs;
 
-    if (counts_from_index(pl, n)) return 1;
+    if (counts_from_index(pl, n)) return index_plausible(pl, info);
     if (pl->encoder[n] == ENCODER_RESETS) {
         rtapi_print_msg(RTAPI_MSG_ERR, "line %d: spindle %d counts %g revolutions right after its index: spindle.%d.index-enable was "
                         "cleared without one\n", info->id, n, revs, n);
@@ -101,7 +151,8 @@ int tp_sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *inf
         pl->followed = n;
         pl->starting = START_INDEX;
         tp->spindle.waiting_for_index = info->id;
-        sp->spindle_index_enable = 1;
+        pl->index = (struct index_watch){ .revs = spindle_revs(n) };
+        ask_for_index(pl);
         tp_measure_spindle(pl);
         return 0;
     }

@@ -137,6 +137,14 @@ def counts(offset, share):
     return int(int(offset / SCALE) * share)
 
 
+def spare_machine_moves():
+    """FP-074: where the machine has the setting, moves to machine coordinates of Z are made without the offset."""
+    try:
+        hal.set_p("axis.z.eoffset-work-only", "1")
+    except (hal.error, RuntimeError):
+        pass
+
+
 class Compensation:
     """What the component does at each poll. machine(): (is on, work offset of X, of Y)."""
 
@@ -181,6 +189,7 @@ class Compensation:
         if not self.running:
             self.fade_height = pins["fade-height"]
             self.running = True
+            spare_machine_moves()
         on, x0, y0 = self.machine()
         if not self.load() or not on:
             pins["counts"] = 0
