@@ -476,9 +476,11 @@ proc ::axis::build_status {} {
     label .info.tool -textvariable tool -anchor w -width 44
     label .info.control -textvariable control_name -anchor w
     label .info.position -textvariable position -anchor w -width 30
+    label .info.time -textvariable run_time -anchor e
     canvas .info.progress -width 1 -height 1 -highlightthickness 0
     pack .info.task_state -side left -padx 6
     pack .info.control -side left
+    pack .info.time -side right -padx 6
     pack .info.tool -side left -padx 6
     pack .info.position -side left -padx 6 -fill x -expand 1
 }

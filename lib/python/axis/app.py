@@ -16,6 +16,7 @@ from kerf.tree import Tree
 
 from . import dialogs, program, remote
 from .dro import SYSTEMS
+from .estimate import Estimate
 from .follow import FollowPart
 from .jog import position, speed
 from .opening import OpeningPart
@@ -72,6 +73,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.panel = None
         self.widget_signs = {}
         self.loader = program.Loader(self.settings)
+        self.estimate = Estimate(ini_path)
         self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
         self.user = {}
         self.last_state = None
@@ -567,6 +569,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         for thread in (self.logging, self.jogger.guard):  # one that sleeps at Python's end would end it by abort()
             if thread.is_alive():
                 thread.join(1.0)
+        self.estimate.cancel()
         self.loader.close()
         self.end_children()
         if getattr(self, "comp", None) is not None:

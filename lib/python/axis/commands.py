@@ -146,7 +146,7 @@ def make(app):
 
         def gcode_properties(*event):
             rows = program.properties(app.shown_file, app.loaded_file if app.is_filtered else None, app.preview.program,
-                                      app.settings, bool(v.metric.get()), _)
+                                      app.settings, bool(v.metric.get()), _, app.estimate.total)
             text = "\n".join(f"{name + ':':<18} {value}" for name, value in rows)
             dialogs.ask(root, _("G-Code Properties"), text, "info", 0, _("OK"), escape=0)
 

@@ -11,6 +11,7 @@ from kerf import clock
 from kerf.language import N_
 
 from .dro import active_codes, tool_text
+from .estimate import Rates, clock_text
 from .jog import position
 from .settings import LETTERS
 
@@ -79,6 +80,7 @@ class FollowPart:
         self.follow_modes()
         self.follow_moved_axis()
         self.follow_line()
+        self.follow_time()
         self.look_at_pins()
         codes = active_codes(s)
         if codes != self.widget_signs.get("codes"):
@@ -157,6 +159,15 @@ class FollowPart:
             self.code.mark("executing", line)
             if line > 0 and self.vars.highlight_line.get() <= 0:
                 self.code.see(line)
+
+    def follow_time(self):
+        """FP-138: the time that the program needs still, or needs at all."""
+        s, e = self.stat, self.estimate
+        running = s.task_mode == linuxcnc.MODE_AUTO and s.interp_state != linuxcnc.INTERP_IDLE
+        e.follow(clock.now(), Rates.of(s), running, not s.task_paused and s.feedrate > 0, s.motion_line)
+        seconds = e.remaining if running else e.total
+        text = self.translate("Remaining: %s") if running else self.translate("Run time: %s")
+        self.vars.put("run_time", "" if seconds is None else text % clock_text(seconds))
 
     def show_readout(self):
         v, s = self.vars, self.stat

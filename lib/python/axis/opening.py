@@ -10,6 +10,7 @@ from kerf import clock
 from kerf.tree import Tree
 
 from . import dialogs, program
+from .estimate import Rates
 
 
 LONGEST_PREVIEW_S = 60.0     # a program without an end is not read for ever, also without PREVIEW_TIMEOUT
@@ -116,6 +117,7 @@ class OpeningPart:
             return
         boxed = self.loader.too_large(self.shown_file)
         self.preview.set_program(path, boxed)
+        self.estimate.start(self.shown_file, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()), Rates.of(self.stat))
         if quiet:
             return
         if boxed:

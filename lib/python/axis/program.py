@@ -147,8 +147,8 @@ def limit_warnings(program, settings, stat, translate=str):
     return warnings
 
 
-def properties(path, source, program, settings, metric, translate=str):
-    """(name, value) lines of the properties dialog."""
+def properties(path, source, program, settings, metric, translate=str, run_time=None):
+    """(name, value) lines of the properties dialog. run_time: seconds that the planner needs, None: not known yet."""
     if path is None:
         return [(translate("Name"), translate("No file loaded"))]
     with open(path, errors="replace") as f:
@@ -162,7 +162,7 @@ def properties(path, source, program, settings, metric, translate=str):
     def length(inches):
         return f"{fmt % (inches * scale)} {unit}"
     max_feed = settings.max_linear / (settings.units_per_mm * MM_PER_INCH) * 60
-    seconds = program.run_time(max_feed, max_feed)
+    seconds = program.run_time(max_feed, max_feed) if run_time is None else run_time
     rows += [(translate("Rapid distance"), length(program.rapid_length)), (translate("Feed distance"), length(program.cutting_length)),
              (translate("Run time"), translate("%.1f minutes") % (seconds / 60) if seconds > 120 else translate("%d seconds") % seconds),
              (translate("Tool Change List"), " ".join(str(tool) for _, tool in program.tools))]

@@ -4,7 +4,7 @@
 import tkinter as tk
 
 STRINGS = ("linuxcnctop_command", "emcini", "mdi_command", "taskfile", "ja_rbutton", "tool", "active_codes", "touch_off_system",
-           "machine", "trajcoordinates", "jogincrement", "task_state_string", "control_name", "position", "pane_top", "pane_bottom")
+           "machine", "trajcoordinates", "jogincrement", "task_state_string", "control_name", "run_time", "position", "pane_top", "pane_bottom")
 INTEGERS = ("interp_pause", "exec_state", "task_state", "task_paused", "interp_state", "task_mode", "has_ladder", "has_editor",
             "spindledir", "running_line", "highlight_line", "feedrate", "rapidrate", "spindlerate", "metric", "coord_type",
             "display_type", "override_limits", "view_type", "teleop_mode", "motion_mode", "kinematics_type", "optional_stop",

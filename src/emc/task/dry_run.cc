@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+constexpr size_t MAX_NOTES = 100; // more than anyone reads
+
 DryRun::DryRun(const EMC_STAT &stat, const AxisLimits &limits, const CanonSettings &settings) : stat_(std::make_unique<EMC_STAT>(stat)) {
     canon_ = std::make_unique<TaskCanon>(*stat_, list_, limits, settings);
     canon_->source_line = [this] { return interp_ ? interp_->line() : 0; };
@@ -24,7 +26,7 @@ bool DryRun::begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, 
 }
 
 void DryRun::note(const std::string &text) {
-    if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
+    if (notes_.size() < MAX_NOTES && std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
 }
 
 DryRun::Result DryRun::step(int lines) {
@@ -40,19 +42,29 @@ DryRun::Result DryRun::step(int lines) {
         if (r == INTERP_OK) r = interp_->execute();
         digest();
         if (r == INTERP_EXECUTE_FINISH) {
+            if (watch) watch(nullptr);
             interp_->synch();
             r = INTERP_OK;
         }
         if (r == INTERP_OK) continue;
-        if (r > INTERP_MIN_ERROR) error_ = std::string(interp_->error_text(r)) + " (line " + std::to_string(interp_->line()) + ")";
-        else error_ = "the program ends at line " + std::to_string(interp_->line());
-        return Result::failed;
+        if (r > INTERP_MIN_ERROR) {
+            error_ = std::string(interp_->error_text(r)) + " (line " + std::to_string(interp_->line()) + ")";
+            return Result::failed;
+        }
+        canon_->FINISH();
+        digest();
+        error_ = "the program ends at line " + std::to_string(interp_->line());
+        return Result::ended;
     }
     return Result::more;
 }
 
 void DryRun::digest() {
-    while (!list_.empty()) digest_one(*list_.take().message);
+    while (!list_.empty()) {
+        const InterpList::Entry order = list_.take();
+        if (watch) watch(&order);
+        digest_one(*order.message);
+    }
 }
 
 void DryRun::digest_one(const NMLmsg &m) {

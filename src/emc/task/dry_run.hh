@@ -9,6 +9,7 @@
 #ifndef KERF_DRY_RUN_HH
 #define KERF_DRY_RUN_HH
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,7 +30,10 @@ public:
     // interp: made for canon(), initialised. false: see error().
     bool begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, const Interp &live_interp, const std::string &program, int line);
 
-    enum class Result { more, reached, failed };
+    // Told of each order in turn before it takes effect on paper; null: the interpreter waits for all before.
+    std::function<void(const InterpList::Entry *)> watch;
+
+    enum class Result { more, reached, ended, failed };
     // Interprets at most `lines` lines.
     Result step(int lines);
 

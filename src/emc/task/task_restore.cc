@@ -92,6 +92,7 @@ int Task::plan_restore(int line) {
 void Task::look_ahead() {
     switch (dry_->step(LINES_A_CYCLE)) {
     case DryRun::Result::more: return;
+    case DryRun::Result::ended:
     case DryRun::Result::failed:
         operator_error(("No start at that line: " + dry_->error()).c_str());
         forget_restore();

@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+"""Estimates of kerf-time beside the time that the machine takes, in virtual time."""
+import os
+import subprocess
+
+import linuxcnc
+from axis.program import Loader
+from axis.settings import read
+from kerf import clock
+from kerf.runner import Machine
+
+ini = os.environ["INI_FILE_NAME"]
+machine = Machine(ini)
+machine.prepare()
+settings = read(linuxcnc.ini(ini))
+settings.ini_path = ini
+loader = Loader(settings)
+
+
+def estimate(program, *options):
+    state = [word for code in loader.init_codes(machine.poll()) for word in ("-i", code)]
+    words = subprocess.run(["kerf-time", "-ini", ini, *options, *state, program], capture_output=True, text=True).stdout.splitlines()[-1].split()
+    assert words[0] == "end", words
+    return float(words[1])
+
+
+def run(program):
+    machine.start(program)
+    begin = clock.now()
+    machine.wait(lambda s: s.interp_state == linuxcnc.INTERP_IDLE, program, 600)
+    taken = clock.now() - begin
+    machine.command.mode(linuxcnc.MODE_MANUAL)
+    machine.command.wait_complete()
+    return taken
+
+
+for name, feed, rapid in [line.split() for line in os.environ["PROGRAMS"].splitlines()]:
+    machine.command.feedrate(float(feed))
+    machine.command.rapidrate(float(rapid))
+    clock.sleep(0.1)
+    expected, taken = estimate(name, "-f", feed, "-r", rapid), run(name)
+    error = abs(expected / taken - 1)
+    print(os.path.basename(name), feed, rapid, "within 2 %" if error < 0.02 else f"expected {expected:.3f}, took {taken:.3f}")
+loader.close()
