@@ -278,9 +278,20 @@ bool IoControl::load_file(const std::string &file) {
 }
 
 int IoControl::load_table(const char *file) {
+    EMC_TOOL_STAT &tool = stat_.io.tool;
+    CANON_TOOL_TABLE prepared = tooldata_entry_init();
+    if (tool.pocketPrepped > 0) tooldata_get(&prepared, tool.pocketPrepped);
     if (!load_file(file)) {
         stat_.io.status = RCS_ERROR;
         return -1;
+    }
+    if (tool.pocketPrepped > 0 && prepared.toolno >= 0) { // lines may have moved: the tool counts, not its index
+        tool.pocketPrepped = tooldata_find_index_for_tool(prepared.toolno);
+        *pins_->tool_prep_index = tool.pocketPrepped < 0 ? 0 : tool.pocketPrepped;
+        if (tool.pocketPrepped < 0) {
+            *pins_->tool_prep_number = *pins_->tool_prep_pocket = 0;
+            news_.push_back("tool " + std::to_string(prepared.toolno) + " was prepared and is not in the table any more: call a tool again (T)");
+        }
     }
     if (!random_ && stat_.io.tool.toolInSpindle != 0) {
         for (int i = 1; i <= tooldata_last_index_get(); i++) {
