@@ -63,4 +63,22 @@ for c in "" "0x378 out 0x37g" "37812" "1 2 3 4 5 6 7 8 9 a"; do
     halrun -f t.hal 2>&1 | grep PARPORT
 done
 printf 'loadrt hal_parport cfg=f\n' > t.hal
-halrun -f t.hal 2>&1 | grep "Linux parallel"
+KERF_CLOCK=real halrun -f t.hal 2>&1 | grep "Linux parallel"
+
+echo "== in simulated time a port is memory: nothing is connected, a pulse ends as set"
+cat > t.hal <<'END'
+loadrt hal_parport cfg="0x378 out 0 in"
+loadrt threads name1=fast period1=100000
+addf parport.read-all fast
+addf parport.write-all fast
+addf parport.0.reset fast
+setp parport.0.pin-02-out 1
+setp parport.0.pin-02-out-reset 1
+start
+loadusr -w kerf-clock sleep 0.01
+getp parport.0.pin-10-in
+getp parport.0.pin-11-in
+getp parport.0.pin-11-in-not
+getp parport.1.pin-02-in
+END
+halrun -f t.hal 2>&1 | grep -v '^Note'
