@@ -48,7 +48,8 @@ class View:
         self.low = [min(f[i] for f in flat) for i in (0, 1)]
         self.high = [max(f[i] for f in flat) for i in (0, 1)]
         margin = 46 * OVERSAMPLE
-        spans = [max(self.high[i] - self.low[i], 1e-6) for i in (0, 1)]
+        least = 1e-6 if max(self.high[i] - self.low[i] for i in (0, 1)) > 1e-6 else 1.0    # a point lies in one unit
+        spans = [max(self.high[i] - self.low[i], least) for i in (0, 1)]
         self.scale = min((self.right - self.left - 2 * margin) / spans[0],
                          (self.bottom - self.top - 2 * margin) / spans[1])
         self.cx = (self.left + self.right) / 2 - self.scale * (self.low[0] + self.high[0]) / 2
@@ -66,7 +67,8 @@ class View:
         d.text((self.left + 12 * OVERSAMPLE, self.top + 8 * OVERSAMPLE), self.title, fill=INK, font=font(15 * OVERSAMPLE))
 
     def grid(self):
-        step = nice_step(max(self.high[0] - self.low[0], self.high[1] - self.low[1]))
+        seen = max(self.right - self.left, self.bottom - self.top) / self.scale
+        step = nice_step(max(self.high[0] - self.low[0], self.high[1] - self.low[1], seen / 4))
         small = font(10 * OVERSAMPLE)
         u = math.ceil((self.left - self.cx) / self.scale / step) * step
         while self.cx + self.scale * u < self.right:

@@ -22,12 +22,14 @@ import time
 from pathlib import Path
 
 from . import clock
+from .attendant import Attendant
 from .inivalues import IniError, IniValues
 from .tree import Tree
 
 POLL_S = 0.05          # of the controller's clock, between looks at the status
 SAMPLE_S = 0.010       # period of the samples of the path
-READY_S = 20.0         # for the machine to answer and home
+READY_S = 20.0         # for the machine to answer
+PATIENCE_S = 300.0     # of the controller's clock, for a program that does not go on
 
 
 class RunError(Exception):
@@ -144,7 +146,7 @@ class Machine:
         c.wait_complete(READY_S)
         self.poll()
         c.auto(l.AUTO_RUN, 0)
-        self.wait(lambda s: s.interp_state != l.INTERP_IDLE or s.motion_line > 0, "program start")
+        self.wait(lambda s: s.echo_serial_number == c.serial, "program start")    # a short one may have ended by then
 
 
 class Measurement:
@@ -300,6 +302,7 @@ def run_display(argv):
         begin, wall = clock.now(), time.monotonic()
         machine.start(program)
         l = machine.linuxcnc
+        attendant = Attendant(machine, order["patience"])
         ended = None
         while True:
             s = machine.poll()
@@ -308,8 +311,9 @@ def run_display(argv):
             if s.interp_state == l.INTERP_IDLE and s.queue == 0 and s.inpos:
                 ended = clock.now()
                 break
-            if s.interp_state == l.INTERP_PAUSED and s.paused and s.task_paused:
-                machine.command.auto(l.AUTO_RESUME)      # M0, M1: nobody is here to press the button
+            given_up = attendant.look(s)
+            if given_up:
+                raise RunError("\n".join(machine.problems + [given_up]))
             clock.sleep(POLL_S)
         report["cycle_time"] = ended - begin
         report["wall_time"] = time.monotonic() - wall
@@ -379,6 +383,8 @@ def main(argv):
     p.add_argument("--realtime", action="store_true", help="at real speed instead of in virtual time")
     p.add_argument("--picture", help="PNG file of the tool path (default: beside the current folder's name)")
     p.add_argument("--samples", help="write every joint's command of every servo cycle to this file (doubles)")
+    p.add_argument("--patience", type=float, default=PATIENCE_S, metavar="S",
+                   help=f"give up when the program makes no progress for S seconds of the machine (default {PATIENCE_S:g})")
     p.add_argument("--json", help="also write the report to this file")
     o = p.parse_args(argv)
     program = os.path.abspath(o.program)
@@ -401,7 +407,7 @@ def main(argv):
             print(e, file=sys.stderr)
             return 1
         env.update(KERF_CLOCK="real" if o.realtime else os.environ.get("KERF_CLOCK", "virtual"),
-                   KERF_RUN=json.dumps({"program": program, "report": str(report_file),
+                   KERF_RUN=json.dumps({"program": program, "report": str(report_file), "patience": o.patience,
                                       "samples": os.path.abspath(o.samples) if o.samples else None}))
         env.setdefault("KERF_INSTANCE", f"run{os.getpid()}")
         log = Path(scratch) / "log"
