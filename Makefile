@@ -130,7 +130,11 @@ $(foreach h,$(PUBLIC_HEADERS),$(eval $(call public_header,$(h))))
 screenshots: all
 	scripts/screenshots
 headers: $(PUBLIC) src/config.h
-all: headers $(LIBRARIES) $(PROGRAMS) $(SCRIPTS) $(RTMODULES) $(PYMODULES) $(EXTRA_TARGETS)
+all: headers $(LIBRARIES) $(PROGRAMS) $(SCRIPTS) $(RTMODULES) $(PYMODULES) $(O)/python/python3 $(EXTRA_TARGETS)
+
+# The Python that our modules are made for, for scripts that take the first one on PATH.
+$(O)/python/python3: | Makefile.inc
+	$(Q)mkdir -p $(@D) && ln -sfn $(PYTHON) $@
 
 Makefile.inc src/config.h &: configure.ac Makefile.inc.in
 	autoreconf -fi

@@ -24,6 +24,7 @@ install: all $(INSTALL_HOOKS)
 	$(INST_EXE) scripts/realtime $(DESTDIR)$(prefix)/lib/linuxcnc/realtime
 	$(INST) scripts/rtapi.conf $(DESTDIR)$(sysconfdir)/linuxcnc/rtapi.conf
 	$(INST) $(PYMODULES) $(DESTDIR)$(PY_SITE)
+	mkdir -p $(DESTDIR)$(prefix)/lib/linuxcnc/python && ln -sfn $(PYTHON) $(DESTDIR)$(prefix)/lib/linuxcnc/python/python3
 	for f in lib/python/*; do case $$f in *.so|*__pycache__) ;; *) cp -r $$f $(DESTDIR)$(PY_SITE)/;; esac; done
 	find $(DESTDIR)$(PY_SITE) -name __pycache__ -prune -exec rm -rf {} +
 	$(INST) $(PUBLIC) $(DESTDIR)$(prefix)/include/linuxcnc

@@ -2,8 +2,18 @@
 """Where the programs, modules and data of this build are: run in place or installed."""
 
 import os
+import shutil
+import site
+import sys
 from dataclasses import dataclass
 from pathlib import Path
+
+
+def put_first(env, name, *paths):
+    """Paths that a list of an environment lacks, before its others."""
+    old = [p for p in env.get(name, "").split(os.pathsep) if p]
+    new = [str(p) for p in paths if str(p) not in old]
+    env[name] = os.pathsep.join(new + old)
 
 
 @dataclass(frozen=True)
@@ -56,19 +66,27 @@ class Tree:
                 pass
         return "unknown"
 
+    def prefer_own_python(self, env):
+        """Scripts that begin with `#!/usr/bin/env python3` shall get the Python that our modules are made for, and find
+        them, unless the user works in a virtual environment."""
+        python = shutil.which("python3", path=env.get("PATH"))
+        if "VIRTUAL_ENV" not in env and python and os.path.realpath(python) != os.path.realpath(sys.executable):
+            own = str(self.home / ("objects/python" if self.in_place else "lib/linuxcnc/python"))
+            env["PATH"] = os.pathsep.join([own, *(p for p in env["PATH"].split(os.pathsep) if p != own)])
+        if str(self.python) not in site.getsitepackages():
+            put_first(env, "PYTHONPATH", self.python)
+
     def environment(self):
         """Copy of the environment in which our programs find each other."""
         env = dict(os.environ)
 
         def prefix(name, *paths):
-            old = [p for p in env.get(name, "").split(os.pathsep) if p]
-            new = [str(p) for p in paths if str(p) not in old]
-            env[name] = os.pathsep.join(new + old)
+            put_first(env, name, *paths)
 
+        self.prefer_own_python(env)
         if self.in_place:
             prefix("PATH", self.scripts, self.bin)
             prefix("LD_LIBRARY_PATH", self.home / "lib")
-            prefix("PYTHONPATH", self.python)
             env["TCLLIBPATH"] = " ".join(filter(None, [str(self.tcl), env.get("TCLLIBPATH", "")]))
             env.update(EMC2_HOME=str(self.home), LINUXCNC_RIP_FLAG="True", EMC2VERSION=self.version())
         else:

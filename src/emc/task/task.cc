@@ -152,8 +152,6 @@ bool Task::start() {
         rcs_print_error("can't initialize motion\n");
         return false;
     }
-    ini_pins_.show(settings_);
-
     canon_settings_.tool_change_position = io_.tool_change_position;
     canon_settings_.parameter_file = ini_.findStringV("PARAMETER_FILE", "RS274NGC", "");
     canon_ = std::make_unique<TaskCanon>(stat_, list_, motion_.limits, canon_settings_);
@@ -187,6 +185,7 @@ bool Task::start() {
     }
     open_journal();
     publish();
+    ini_pins_.show(settings_); // the launcher starts the screen when these have their values: the status must be there
     return true;
 }
 
