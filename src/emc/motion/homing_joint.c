@@ -171,6 +171,12 @@ static int is_blocked(int j, double vel)
     return (m->on_pos_limit && !m->on_neg_limit && vel > 0.0) || (m->on_neg_limit && !m->on_pos_limit && vel < 0.0);
 }
 
+/* Limits are ignored and both are on: one switch stands for both ends, and nothing tells which one this is. */
+static int end_unknown(int j)
+{
+    return has(j, HOME_IGNORE_LIMITS) && homes.motion[j].on_pos_limit && homes.motion[j].on_neg_limit;
+}
+
 /* What ends a search without success. */
 static enum event search_over(int j)
 {
@@ -244,7 +250,7 @@ static enum event look_initial_backoff(int j)
 {
     if (!delay_over(j))
         return EV_NONE;
-    if (is_blocked(j, -homes.joint[j].search_vel))
+    if (is_blocked(j, -homes.joint[j].search_vel) || end_unknown(j))
         return EV_LIMIT;
     return may_start(j) ? EV_NEXT : EV_NONE;
 }
@@ -255,7 +261,7 @@ static enum event look_search(int j)
         return EV_NONE;
     if (homes.joint[j].switch_read)
         return EV_BACKOFF;
-    if (is_blocked(j, homes.joint[j].search_vel))
+    if (is_blocked(j, homes.joint[j].search_vel) || end_unknown(j))
         return EV_LIMIT;
     return may_start(j) ? EV_NEXT : EV_NONE;
 }
@@ -295,7 +301,7 @@ static enum event look_index_only(int j)
 {
     if (!delay_over(j))
         return EV_NONE;
-    if (is_blocked(j, homes.joint[j].latch_vel))
+    if (is_blocked(j, homes.joint[j].latch_vel) || end_unknown(j))
         return EV_LIMIT;
     return may_start(j) ? EV_NEXT : EV_NONE;
 }
@@ -478,7 +484,9 @@ static void error_limit(int j)
         homing_error("hit limit in home state j=%d", j, 0);
     else
         homing_error("j%d hit limit in home state %d", j, state_of_move(state));
-    if (has(j, HOME_IGNORE_LIMITS))
+    if (end_unknown(j))
+        homing_error("joint %d stands on a limit switch of either end: choose the direction, jog it off first", j, 0);
+    else if (has(j, HOME_IGNORE_LIMITS))
         homing_error("joint %d would move farther onto the limit switch it stands on: jog it off first", j, 0);
 }
 

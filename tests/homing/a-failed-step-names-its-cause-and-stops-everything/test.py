@@ -116,6 +116,12 @@ for start, hw, n in ((0, dict(pos_lim_at=-100), 7), (20, dict(neg_lim_at=100), 5
           [f"j0 hit limit in home state {n}",
            "joint 0 would move farther onto the limit switch it stands on: jog it off first"],
           start, hw, way=0, joint=0, **dict(USUAL, flags=IGNORE_LIMITS))
+# ... and one switch for both ends does not say which end it is, before a back-off, a search and an index move
+for start, n, params in ((20, 5, USUAL), (0, 7, USUAL), (0, 18, dict(latch_vel=2.0))):
+    fails(f"on the switch of either end from {start}",
+          [f"j0 hit limit in home state {n}",
+           "joint 0 stands on a limit switch of either end: choose the direction, jog it off first"],
+          start, dict(pos_lim_at=-100, neg_lim_at=100), way=0, joint=0, **dict(params, flags=IGNORE_LIMITS | (USE_INDEX if n == 18 else 0)))
 # FP-052: dead and stuck switches, default and settable bounds
 fails("dead switch", [end(7), DEAD], 0, dict(stuck=-1, pos_lim_at=1e9), **USUAL)
 fails("dead switch, bounded", [end(7), DEAD], 0, dict(stuck=-1), (7.5, 0, 0, 0), 7.5, **USUAL)
