@@ -46,7 +46,7 @@ static void unexpected_contact(struct motion *m)
     for (int j = 0; j < all_joints(m); j++) {
         if (!is_active(&m->joint[j]))
             continue;
-        if (get_homing(j)) {
+        if (get_homing(j) || !get_home_is_idle(j)) { /* also one that starts in this cycle */
             if (!m->config_work.inhibit_probe_home_error) {
                 do_cancel_homing(j);
                 homing = 1;

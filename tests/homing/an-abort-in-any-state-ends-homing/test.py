@@ -50,9 +50,9 @@ def states(params, start):
     return [s for s in seen[1] if s != "IDLE"]
 
 
+tried = set()
 for params, start in KINDS:
-    for n, state in enumerate(states(params, start)):
-        way = WAYS[n % len(WAYS)]
+    for state, way in [(s, w) for s in states(params, start) for w in WAYS if (s, w) not in tried]:
         name = f"{params} from {start}: {way} in {state}"
         prepare(params, start)
         m.ask_home()
@@ -60,6 +60,7 @@ for params, start in KINDS:
             m.until(lambda: m.state(1) == state, state)
         except AssertionError:
             continue  # a state of one cycle, passed between two looks
+        tried.add((state, way))
         stop(way)
         m.sleep(0.004)
         r.check(not m.homing() and not any(s["homing"] for s in m.status()["joint"]), f"{name}: still homing")
@@ -80,6 +81,11 @@ for params, start in KINDS:
         m.until(lambda: not m.homing(), "homed")
         r.check(m.homed(2) and [m.at(0), m.at(1)] == at[:2] and not m.homed(1), f"{name}: others moved")
         r.check(not m.violations(), f"{name}: {m.violations()}")
+# every state that waits for something, or for the next cycle
+for state in ("UNLOCK_WAIT BACKOFF_START BACKOFF_WAIT SEARCH_START SEARCH_WAIT FINAL_BACKOFF_START FINAL_BACKOFF_WAIT RISE_START "
+              "RISE_WAIT FALL_START FALL_WAIT INDEX_ONLY_START INDEX_WAIT FINAL_START FINAL_WAIT LOCK_WAIT").split():
+    for way in WAYS:
+        r.check((state, way) in tried, f"{way} in {state} was not tried")
 # between two sequence numbers there is a cycle in which every joint is idle
 m.wait(lambda s: s["inpos"], "at rest")
 for delay in range(0, 12):
