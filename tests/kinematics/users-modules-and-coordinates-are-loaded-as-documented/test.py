@@ -112,6 +112,16 @@ for name, joints, axes, types, prefix, dummy in (
         m.mode(km.COORD)
     m.close()
 
+# a module in plain C that uses posemath.h
+m = Machine(joints=3, kins="kerf_test_tower", low=-200, high=200, home_params={j: dict(offset=q, home=q) for j, q in enumerate((100.0, 0.0, 0.0))})
+m.set("kerf_test_tower.shown", 4)
+m.mode(km.COORD)
+near(pose(m)[:3], [0, 0, 0], "tower")
+m.line(30, 0, 60)
+m.rest()
+near(m.joints_at(), [50, 30, 0], "tower")
+m.close()
+
 # the template, as shipped and as a user builds it
 for name in ("userkins", "kerf_test_userkins"):
     m = Machine(joints=3, kins=name)

@@ -1,9 +1,9 @@
 #!/bin/bash
 # A kinematics component of a user is compiled, loaded and switched; then what coordinates= may say.
 modules=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
-trap 'rm -f "$modules"/kerf_test_kins.so "$modules"/kerf_test_userkins.so kerf_test_userkins.comp *.tmp.hal' EXIT
+trap 'rm -f "$modules"/kerf_test_kins.so "$modules"/kerf_test_{userkins,tower}.so kerf_test_userkins.comp *.tmp.hal' EXIT
 sed 's/^component userkins/component kerf_test_userkins/' ../../../src/emc/kinematics/userkins.comp > kerf_test_userkins.comp
-halcompile --install kerf_test_kins.comp kerf_test_userkins.comp >&2 || exit 1
+halcompile --install kerf_test_kins.comp kerf_test_userkins.comp kerf_test_tower.c >&2 || exit 1
 ../lib/run.sh || exit 1
 try() { # LOADRT-WORDS: what is printed, and the pose of joints 1 2 3 ... where it loads
     echo "-- $*"
