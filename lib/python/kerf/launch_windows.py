@@ -2,7 +2,7 @@
 """Windows of the launcher: the picture while the machine starts, and what went wrong.
 
     python3 -m kerf.launch_windows splash PICTURE SECONDS
-    python3 -m kerf.launch_windows errors PRINT_LOG DEBUG_LOG
+    python3 -m kerf.launch_windows errors DIED [PRINT_LOG DEBUG_LOG]
 """
 
 import subprocess
@@ -43,15 +43,19 @@ def kernel_messages():
 
 
 class Errors:
-    """Both logs and the kernel's messages, with a button that writes a report to send."""
+    """Both logs and the kernel's messages, with a button that writes a report to send. died: what of the machine ended."""
 
-    def __init__(self, root, print_log, debug_log):
+    def __init__(self, root, died, print_log=None, debug_log=None):
         self.root = root
-        self.texts = {N_("What the programs reported"): read(debug_log), N_("Steps of the start"): read(print_log),
-                      N_("Kernel messages"): kernel_messages()}
-        root.title(_("LinuxCNC terminated with an error"))
+        logs = {N_("What the programs reported"): read(debug_log), N_("Steps of the start"): read(print_log)} if print_log else {}
+        self.texts = logs | {N_("Kernel messages"): kernel_messages()}
+        root.title(died if died else _("LinuxCNC terminated with an error"))
         px = tkstyle.apply(root).px
         tkstyle.centre(root, px(820), px(520), (px(480), px(300)))
+        if died:
+            ttk.Label(root, padding=px(8), wraplength=px(780), justify="left", font="TkHeadingFont", foreground="#c00000",
+                      text=died + "\n" + _("Motion was stopped, the machine was switched off, spindles and coolant too. It must be "
+                                           "started and homed again.")).pack(fill="x")
         ttk.Label(root, padding=px(8), wraplength=px(780), justify="left",
                   text=_("LinuxCNC terminated with an error. The last lines below usually say which program or file, and "
                        "where in it.")).pack(fill="x")

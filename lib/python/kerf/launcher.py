@@ -58,6 +58,10 @@ class Failure(Exception):
         self.status = status
 
 
+class Died(Failure):
+    """A part of the machine ended that must not."""
+
+
 class Options:
     """The command line."""
 
@@ -500,7 +504,7 @@ class Session:
                         ends.unregister(descriptors[pid])
                 else:
                     self.task_died |= name == self.task[:15]
-                    raise Failure(f"{name} (process {pid}) died unexpectedly; stopping everything")
+                    raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
             ends.poll(WATCH_MS)
 
     def display_command(self):
@@ -584,7 +588,8 @@ class Logs:
     """Temporary logs when standard input is no terminal; kept in HOME after an error."""
 
     def __init__(self, options):
-        self.active = not sys.stdin.isatty() and not options.test_mode
+        self.quiet = options.test_mode
+        self.active = not sys.stdin.isatty() and not self.quiet
         self.files = {}
         if not self.active:
             return
@@ -599,8 +604,18 @@ class Logs:
         os.dup2(fd, stream)
         os.close(fd)
 
-    def finish(self, status, terminal):
+    def show(self, died, *texts):
+        """A window of its own process: the screen is gone."""
+        if os.environ.get("DISPLAY") and not self.quiet:
+            subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "errors", died, *texts], stdin=subprocess.DEVNULL,
+                             env=dict(os.environ, PYTHONPATH=str(Tree.find().python)), stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL, start_new_session=True)
+
+    def finish(self, status, terminal, died):
+        """died: the part of the machine that ended and must not; the operator is told also without logs."""
         if not self.active:
+            if died:
+                self.show(died)
             return
         sys.stdout.flush()
         sys.stderr.flush()
@@ -616,10 +631,7 @@ class Logs:
                 texts.append(target)
             with open(self.files["debug"]) as f:
                 os.write(terminal, f.read()[-4000:].encode())
-            if os.environ.get("DISPLAY"):
-                subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "errors", *texts], stdin=subprocess.DEVNULL,
-                                 env=dict(os.environ, PYTHONPATH=str(Tree.find().python)), stdout=subprocess.DEVNULL,
-                                 stderr=subprocess.DEVNULL, start_new_session=True)
+            self.show(died, *texts)
             os.write(terminal, (
                 "LinuxCNC terminated with an error.  You can find more information in the log:\n"
                 f"    {texts[1]}\nand\n    {texts[0]}\n"
@@ -659,8 +671,8 @@ def interrupted(*_):
     raise KeyboardInterrupt
 
 
-def session_main(options, ini_path, tree, guard):
-    """The session process. Returns the exit status."""
+def session_main(options, ini_path, tree, guard, told):
+    """The session process. Returns the exit status; what died is written to the descriptor `told`."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
     if os.getppid() != guard:
         return 1
@@ -680,6 +692,8 @@ def session_main(options, ini_path, tree, guard):
     except Failure as e:
         print(e, file=sys.stderr if e.status else sys.stdout)
         status = e.status
+        if isinstance(e, Died):
+            os.write(told, str(e).encode())
     except KeyboardInterrupt:
         status = 0
     clock.leave()
@@ -688,7 +702,8 @@ def session_main(options, ini_path, tree, guard):
 
 
 def guarded(options, ini_path, tree):
-    """Runs the session in a child; cleans up when the child is killed."""
+    """Runs the session in a child; cleans up when the child is killed. Returns its status and what died ("": nothing)."""
+    hear, tell = os.pipe()
     os.environ[SESSION + "_NEW"] = uuid.uuid4().hex
     sys.stdout.flush()
     guard = os.getpid()
@@ -696,7 +711,7 @@ def guarded(options, ini_path, tree):
     if child == 0:
         status = 1
         try:
-            status = session_main(options, ini_path, tree, guard)
+            status = session_main(options, ini_path, tree, guard, tell)
         finally:
             sys.stdout.flush()
             sys.stderr.flush()
@@ -710,9 +725,12 @@ def guarded(options, ini_path, tree):
     signal.signal(signal.SIGTERM, forward)
     signal.signal(signal.SIGINT, lambda *_: None if os.isatty(0) else forward(signal.SIGTERM, None))
     _, how = os.waitpid(child, 0)
+    os.close(tell)
+    with open(hear, errors="replace") as f:
+        died = f.read()
     status = os.waitstatus_to_exitcode(how)
     if status >= 0:
-        return status
+        return status, died
     print(f"The session process was ended by signal {-status}.", file=sys.stderr)
     session = Session(options, ini_path, tree)
     try:
@@ -722,7 +740,7 @@ def guarded(options, ini_path, tree):
         pass
     if os.path.exists(session.lock):
         session.clean()
-    return 1
+    return 1, ""
 
 
 def main(argv):
@@ -739,9 +757,9 @@ def main(argv):
         print(f"LINUXCNC - {tree.version()}", flush=True)
     terminal = os.dup(2)
     logs = Logs(options)
-    status = 1
+    status, died = 1, ""
     try:
-        status = guarded(options, ini_path, tree)
+        status, died = guarded(options, ini_path, tree)
     finally:
-        logs.finish(status, terminal)
+        logs.finish(status, terminal, died)
     return status

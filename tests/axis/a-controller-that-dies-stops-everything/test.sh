@@ -15,4 +15,17 @@ for victim in task display halui; do
     grep -h -o "milltask.*died[^:]*\|milltask.*ended[^:]*" screen.log screen.err | head -1 | sed 's/[0-9]\+/N/g'
     grep -i -A8 traceback screen.err screen.log
 done
-rm -rf machine home transcript seen screen.log screen.err
+echo "== task, of a machine started from a desktop: a window tells it, names what died, and closes with Escape"
+cat > desktop.sh <<'SH'
+HOME=$PWD/home linuxcnc -D "$PWD/killed.py" machine/mill.ini > screen.log 2> screen.err < /dev/null
+window=$(timeout 20 xdotool search --sync --onlyvisible --name '^milltask ' | head -1)
+xdotool getwindowname "$window" | sed 's/[0-9]\+/N/g'
+for _ in $(seq 100); do
+    xdotool getwindowname "$window" > /dev/null 2>&1 || { echo closed; break; }
+    xdotool windowfocus "$window" key Escape 2> /dev/null
+    sleep 0.1
+done
+SH
+rm -rf machine home; cp -r "$top/configs/sim/mill" machine; mkdir home
+"$top/tests/lib/with-display" bash desktop.sh
+rm -rf desktop.sh machine home transcript seen screen.log screen.err

@@ -107,7 +107,7 @@ PROGRAMS = {
     "debuglevel": lambda root: debuglevel.Window(root, Status(), None),
     "teach-in": lambda root: teach_in.Window(root, Status(), sys.stdout),
     "halscope": scope, "latency-test": latency, "ngcgui": form, "simulate_probe": probe,
-    "errors": lambda root: launch_windows.Errors(root, "t.hal", "machine.ini"),
+    "errors": lambda root: launch_windows.Errors(root, "«milltask (process 1234) died unexpectedly; stopping everything»", "t.hal", "machine.ini"),
     "image-to-gcode": lambda root: image_to_gcode.Window(root, Image.new("L", (40, 30)), "a.png", relief.Settings()),
     "mdro": lambda root: mdro.Window(root, mdro.Readout(list("XYZ"), lambda i: 1.25, "inch"), component, 20),
 }
