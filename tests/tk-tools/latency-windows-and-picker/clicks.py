@@ -1,7 +1,8 @@
+import time
 from types import SimpleNamespace
 
 from kerf import pickconfig, tkstyle
-from kerf.haltools import latency_view
+from kerf.haltools import latency_plot, latency_view, strip_chart
 from kerf.haltools.latency import ThreadFigures
 from kerf.tree import Tree
 from tk_hand import Hand
@@ -47,14 +48,56 @@ print("resets:", meter.resets, window.elapsed.cget("text"))
 print("end bars:", latency_view.gathered([1, 2, 3, 4, 5, 6, 7], 1), latency_view.gathered([1, 2, 3], 5))
 hand.click(window.buttons["Exit"])
 
+
+class Trace:
+    """What latency-plot measures: a second between two looks."""
+
+    def __init__(self, *latencies):
+        self.threads, self.start, self.count, self.latencies, self.worst, self.rows = [("servo", 1000000)], 86400.0, 0, latencies, 0, {"servo": []}
+
+    def sample(self):
+        latency = self.latencies[self.count % len(self.latencies)]
+        self.count, self.worst = self.count + 1, max(self.worst, latency)
+        self.rows["servo"].append((self.start + self.count, latency, self.worst))
+
+    def reset(self):
+        self.worst = 0
+
+
 root = tkstyle.open_display("latency-plot", "Test")
-strip = latency_view.Strip(root, tkstyle.apply(root), "servo", 300)
-strip.pack()
+trace = Trace(10, 40, 20)
+plot = strip_chart.Plot(root, trace, latency_plot.options(["--hal", "-t", "10000"]), "a machine")
+hand, strip = Hand(root), plot.strips["servo"]
+for _ in range(3):
+    trace.sample()
+plot.show()
 root.update()
-strip.show([10, 40, 20], "last 20 ns")
-points = strip.coords("line")
-print("strip:", len(points) // 2, points[3] == min(points[1::2]), strip.itemcget("figures", "text"))
-root.destroy()
+
+
+def lines():
+    found = [strip.coords(tag) for tag in ("line", "largest")]
+    heights = [[round(y) for y in points[1::2]] for points in found]
+    return [[h.index(min(h)), len(h)] for h in heights], strip.itemcget("figures", "text"), [strip.itemcget(i, "text") for i in strip.find_withtag("time")]
+
+
+print("plot:", *lines())
+hand.click(plot.clock_box, x=8)
+print("time of day:", lines()[2] == [time.strftime("%H:%M:%S", time.localtime(86401))])
+hand.click(plot.buttons["Reset"])
+trace.sample()
+plot.show()
+print("reset:", lines()[1])
+for _ in range(7):
+    hand.click(plot.buttons["-"])
+print("points:", plot.count.cget("text"))
+for _ in range(20):
+    trace.sample()
+plot.show()
+print("moves on:", lines()[0][0][1])
+hand.click(plot.buttons["+"])
+print("points:", plot.count.cget("text"))
+plot.close()
+print([latency_plot.options(words).relative for words in ([], ["--relative"], ["--actual", "-H", "-b", "50000", "-s", "2000000"])])
 
 
 def picker():

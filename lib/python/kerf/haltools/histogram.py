@@ -13,12 +13,11 @@ import sys
 from .. import clock
 from ..language import _
 from .report import Netlist
-from .session import ToolError, halcmd
+from .session import SETTLE_S, ToolError, each_second, fetch, halcmd, pulse, run_tool
 
 KEY = 21000           # shared memory key of stream 0
 INSTANCES = 5         # tools that may run at the same time
 MAX_BINS = 200
-SETTLE_S = 0.02
 INPUTS = {"float": ("0", "input"), "s32": ("1", "input-s32"), "u32": ("2", "input-u32"), "bit": ("3", "input-bit")}
 
 
@@ -102,9 +101,7 @@ class PinHistogram:
 
     def reset(self):
         """Forgets what was counted."""
-        self.hal.set_p(f"{self.prefix}.reset", "1")
-        clock.sleep(SETTLE_S)
-        self.hal.set_p(f"{self.prefix}.reset", "0")
+        pulse(f"{self.prefix}.reset")
 
     def read(self):
         """Fetches counts and figures."""
@@ -115,15 +112,7 @@ class PinHistogram:
         self.figures = {name: self._pin(name) for name in ("nsamples", "mean", "variance", "input-min", "input-max")}
 
     def _read_stream(self):
-        while self.stream.readable:
-            self.stream.read()
-        self.hal.set_p(f"{self.prefix}.stream", "1")
-        clock.sleep(SETTLE_S)
-        values = []
-        while self.stream.readable:
-            values.append(self.stream.read()[0])
-        self.hal.set_p(f"{self.prefix}.stream", "0")
-        clock.sleep(SETTLE_S)
+        values = fetch({self.prefix: self.stream})[0]
         if len(values) == self.o.nbins + 2:
             self.low, *self.counts, self.high = values
 
@@ -142,6 +131,12 @@ class PinHistogram:
         return (f"samples: {f.get('nsamples', 0)} min: {f.get('input-min', 0):g} max: {f.get('input-max', 0):g} "
                 f"mean: {f.get('mean', 0):g} sdev: {sdev:g}")
 
+    def lines(self, elapsed_s: float) -> list[str]:
+        """Reads; a line of figures, then 'lower end of bin: count' for bins that are not empty."""
+        self.read()
+        bins = [f"  {self.o.minvalue + i * self.o.binsize:g}: {count}" for i, count in enumerate(self.counts) if count]
+        return [f"{elapsed_s:5d} s {self.summary()} below: {self.low} above: {self.high}", *bins]
+
     def close(self):
         for words in (("delf", self.prefix, self.thread), ("unlinkp", f"{self.prefix}.{self.input}")):
             try:
@@ -151,21 +146,6 @@ class PinHistogram:
         if self.own_signal:
             halcmd("delsig", self.signal)
         self.component.exit()
-
-
-def print_counts(model: PinHistogram, seconds: int):
-    """Once a second: a line of figures, then 'lower end of bin: count' for bins that are not empty."""
-    start = clock.now()
-    while True:
-        clock.sleep(1.0 - 2 * SETTLE_S)
-        model.read()
-        elapsed = round(clock.now() - start)
-        print(f"{elapsed:5d} s {model.summary()} below: {model.low} above: {model.high}")
-        for i, count in enumerate(model.counts):
-            if count:
-                print(f"  {model.o.minvalue + i * model.o.binsize:g}: {count}", flush=True)
-        if seconds and elapsed >= seconds:
-            return
 
 
 def show_window(model: PinHistogram, o: argparse.Namespace):
@@ -184,18 +164,14 @@ def show_window(model: PinHistogram, o: argparse.Namespace):
 
 def main(arguments: list[str]) -> int:
     o = options(arguments)
-    clock.join("hal-histogram")
-    try:
+
+    def work():
         model = PinHistogram(o)
         try:
-            (print_counts if o.nox else lambda m, s: show_window(m, o))(model, o.seconds)
-        except KeyboardInterrupt:
-            pass
+            if o.nox:
+                each_second(model.lines, o.seconds, 1.0 - 2 * SETTLE_S)
+            else:
+                show_window(model, o)
         finally:
             model.close()
-    except ToolError as problem:
-        print(f"hal-histogram: {problem}", file=sys.stderr)
-        return 1
-    finally:
-        clock.leave()
-    return 0
+    return run_tool("hal-histogram", work, own_session=False)

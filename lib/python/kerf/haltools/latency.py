@@ -11,11 +11,10 @@ import sys
 from dataclasses import dataclass, field
 
 from .. import clock
-from .session import Platform, RealtimeSession, ToolError, halcmd
+from .session import SETTLE_S, Platform, each_second, fetch, halcmd, pulse, run_tool
 
 KEY = 22000             # shared memory key of the first stream
 MAX_BINS = 1000         # bins that the component has, each side
-SETTLE_S = 0.02         # for a thread to see that a pin was set
 FIELDS = ("latency-min", "latency-max", "latency-avg", "variance")
 
 
@@ -61,41 +60,33 @@ class LatencyMeter:
                "keys=" + ",".join(str(KEY + i) for i in range(len(threads))))
         self.component = hal.component(name)
         self.component.ready()
-        self.streams = []
+        self.streams = {}
         for i, t in enumerate(threads):
             halcmd("addf", f"latencybinstream.{i}", t.thread)
             halcmd("setp", f"latencybinstream.{i}.maxbinnumber", str(t.bins))
             halcmd("setp", f"latencybinstream.{i}.nsbinsize", str(t.bin_ns))
-            self.streams.append(hal.stream(self.component, KEY + i, "u"))
+            self.streams[f"latencybinstream.{i}"] = hal.stream(self.component, KEY + i, "u")
         halcmd("start")
         clock.sleep(SETTLE_S)
         self.reset()
 
     def reset(self):
         """Forgets what was measured."""
-        for i, t in enumerate(self.figures):
-            self.hal.set_p(f"latencybinstream.{i}.reset", "1")
+        for t in self.figures:
             t.minimum = t.maximum = None
             t.counts = []
-        clock.sleep(SETTLE_S)
-        for i in range(len(self.figures)):
-            self.hal.set_p(f"latencybinstream.{i}.reset", "0")
+        pulse(*(f"{prefix}.reset" for prefix in self.streams))
 
     def read(self):
         """Fetches the figures of all threads."""
-        for i in range(len(self.figures)):
-            while self.streams[i].readable:
-                self.streams[i].read()
-            self.hal.set_p(f"latencybinstream.{i}.stream", "1")
-        clock.sleep(SETTLE_S)
-        for i, t in enumerate(self.figures):
-            counts = []
-            while self.streams[i].readable:
-                counts.append(self.streams[i].read()[0])
-            low, high, _, variance = (self.hal.get_p(f"latencybinstream.{i}.{f}") for f in FIELDS)
+        for t, prefix, counts in zip(self.figures, self.streams, fetch(self.streams)):
+            low, high, _, variance = (self.hal.get_p(f"{prefix}.{f}") for f in FIELDS)
             t.update(low, high, variance, counts)
-            self.hal.set_p(f"latencybinstream.{i}.stream", "0")
-        clock.sleep(SETTLE_S)
+
+    def lines(self, elapsed_s: float) -> list[str]:
+        """Reads, too."""
+        self.read()
+        return [t.line(elapsed_s) for t in self.figures]
 
     def close(self):
         self.component.exit()
@@ -145,42 +136,21 @@ def threads_of(o: argparse.Namespace) -> list[ThreadFigures]:
     return [ThreadFigures("base", o.base, o.bbinsize, o.bbins), servo]
 
 
-def print_lines(meter: LatencyMeter, seconds: int):
-    """A line per second and thread, until interrupted."""
-    start = clock.now()
-    while True:
-        clock.sleep(1.0 - 2 * SETTLE_S)
-        meter.read()
-        elapsed = round(clock.now() - start)
-        for t in meter.figures:
-            print(t.line(elapsed), flush=True)
-        if seconds and elapsed >= seconds:
-            return
-
-
 def main(arguments: list[str]) -> int:
     o = options(arguments)
-    clock.join("latency-histogram")
-    try:
-        with RealtimeSession():
-            platform = Platform()
-            print(platform.banner(), flush=True)
-            if o.text:
-                print(o.text)
-            meter = LatencyMeter(threads_of(o))
-            try:
-                if o.nox:
-                    print_lines(meter, o.seconds)
-                else:
-                    from .latency_view import show_histograms
-                    show_histograms(meter, o, platform)
-            except KeyboardInterrupt:
-                pass
-            finally:
-                meter.close()
-    except ToolError as problem:
-        print(f"latency-histogram: {problem}", file=sys.stderr)
-        return 1
-    finally:
-        clock.leave()
-    return 0
+
+    def work():
+        platform = Platform()
+        print(platform.banner(), flush=True)
+        if o.text:
+            print(o.text)
+        meter = LatencyMeter(threads_of(o))
+        try:
+            if o.nox:
+                each_second(meter.lines, o.seconds, 1.0 - 2 * SETTLE_S)
+            else:
+                from .latency_view import show_histograms
+                show_histograms(meter, o, platform)
+        finally:
+            meter.close()
+    return run_tool("latency-histogram", work, own_session=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from .. import clock, tkstyle
 from ..language import _
-from .session import Platform, facts
+from .session import Platform, each_second, facts
 
 PERIOD_MS = 100
 ROWS = (("servo", "s"), ("base", "b"))
@@ -44,16 +44,12 @@ def make_component(hal):
 
 
 def run_lines(component, worst: Worst, names: dict, seconds: int):
-    start = clock.now()
-    while True:
-        clock.sleep(1.0)
+    def lines(elapsed):
         worst.update(component)
-        elapsed = round(clock.now() - start)
         for letter in worst.letters:
-            print(f"{elapsed:5d} s {names[letter]:>5s} max interval: {worst.interval[letter]:>10d} ns "
-                  f"max jitter: {worst.jitter[letter]:>10d} ns last: {component[letter + 't']:>10d} ns", flush=True)
-        if seconds and elapsed >= seconds:
-            return
+            yield (f"{elapsed:5d} s {names[letter]:>5s} max interval: {worst.interval[letter]:>10d} ns "
+                   f"max jitter: {worst.jitter[letter]:>10d} ns last: {component[letter + 't']:>10d} ns")
+    each_second(lines, seconds)
 
 
 class Window:

@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""latency-plot: a moving chart of the intervals of the base and servo thread. Times are ns."""
+"""latency-plot: a moving chart of the latencies of the base and servo thread."""
 
 import argparse
-import sys
+import time
 from collections import deque
 
 from .. import clock
-from .session import Platform, RealtimeSession, ToolError, halcmd
+from .session import Platform, halcmd, run_tool
 
-POINTS = 300   # of a chart
+POINTS = 600   # that are kept
 
 
 class IntervalTrace:
-    """Largest deviation (or interval) of each thread in each of the last POINTS looks."""
+    """Largest latency of each thread since the look before, and since the start or reset().
 
-    def __init__(self, threads: list[tuple[str, int]], relative: bool):
+    rows[name]: (time of day in s, latency in us, the largest so far in us), the newest last.
+    """
+
+    def __init__(self, threads: list[tuple[str, int]]):
         import hal
-        self.hal, self.threads, self.relative = hal, threads, relative
-        self.values = {name: deque(maxlen=POINTS) for name, _ in threads}
+        self.hal, self.threads, self.start, self.count = hal, threads, time.time(), 0
+        self.rows = {name: deque(maxlen=POINTS) for name, _ in threads}
         self.worst = {name: 0 for name, _ in threads}
         words = []
         for n, (name, period) in enumerate(threads, 1):
@@ -30,34 +33,38 @@ class IntervalTrace:
 
     def sample(self):
         """One look: the extremes since the last one; then they start anew."""
+        self.count += 1
         for n, (name, period) in enumerate(self.threads):
-            high = self.hal.get_p(f"timedelta.{n}.max")
-            low = self.hal.get_p(f"timedelta.{n}.min")
-            deviation = max(high - period, period - low)
-            self.worst[name] = max(self.worst[name], deviation)
-            self.values[name].append(deviation if self.relative else high)
+            latency = max(self.hal.get_p(f"timedelta.{n}.max") - period, period - self.hal.get_p(f"timedelta.{n}.min"))
+            self.worst[name] = max(self.worst[name], latency)
+            self.rows[name].append((time.time(), latency / 1000, self.worst[name] / 1000))
             self.hal.set_p(f"timedelta.{n}.reset", "1")
         clock.sleep(0.005)
         for n in range(len(self.threads)):
             self.hal.set_p(f"timedelta.{n}.reset", "0")
 
+    def reset(self):
+        """The largest latencies are those from now on."""
+        self.worst = dict.fromkeys(self.worst, 0)
+
     def line(self) -> str:
-        return "  ".join(f"{name}: last {self.values[name][-1]} worst deviation {self.worst[name]} ns"
+        return "  ".join(f"{name}: last {self.rows[name][-1][1] * 1000:.0f} worst deviation {self.worst[name]} ns"
                          for name, _ in self.threads)
 
 
 def options(arguments: list[str]) -> argparse.Namespace:
     p = argparse.ArgumentParser(prog="latency-plot", add_help=False, allow_abbrev=False,
-                                description="Strip chart of thread intervals.")
+                                description="Strip chart of thread latencies.")
     p.add_argument("-b", "--base", type=int, default=25000, metavar="ns", help="base period (25000)")
     p.add_argument("-s", "--servo", type=int, default=1000000, metavar="ns", help="servo period (1000000)")
     p.add_argument("-t", "--time", type=int, default=1000, metavar="ms", help="time between points (1000; 100 to 10000)")
     kind = p.add_mutually_exclusive_group()
-    kind.add_argument("--relative", action="store_true", default=True, help="deviation from the period (default)")
-    kind.add_argument("--actual", dest="relative", action="store_false", help="interval")
+    kind.add_argument("--relative", action="store_true", default=True, help="times since the start (default)")
+    kind.add_argument("--actual", dest="relative", action="store_false", help="times of day")
+    p.add_argument("-H", "--hal", action="store_true", help="nothing: accepted as ever")
     p.add_argument("--nox", action="store_true", help="no window: a line per point")
     p.add_argument("--points", type=int, default=0, metavar="n", help="end after n points (0: never)")
-    p.add_argument("-h", "-H", "--hal", "--help", action="help", help="this text")
+    p.add_argument("-h", "-?", "--help", action="help", help="this text")
     o = p.parse_args(arguments)
     if not 100 <= o.time <= 10000:
         p.error(f"--time {o.time}: must be 100 to 10000 ms")
@@ -67,34 +74,22 @@ def options(arguments: list[str]) -> argparse.Namespace:
 
 
 def print_lines(trace: IntervalTrace, o: argparse.Namespace):
-    count = 0
-    while not o.points or count < o.points:
+    while not o.points or trace.count < o.points:
         clock.sleep(o.time / 1000)
         trace.sample()
         print(trace.line(), flush=True)
-        count += 1
 
 
 def main(arguments: list[str]) -> int:
     o = options(arguments)
-    clock.join("latency-plot")
-    try:
-        with RealtimeSession():
-            platform = Platform()
-            threads = [("base", o.base)] if o.base < o.servo else []
-            trace = IntervalTrace(threads + [("servo", o.servo)], o.relative)
-            try:
-                if o.nox:
-                    print(platform.banner(), flush=True)
-                    print_lines(trace, o)
-                else:
-                    from .latency_view import show_strips
-                    show_strips(trace, o, platform, POINTS)
-            except KeyboardInterrupt:
-                pass
-    except ToolError as problem:
-        print(f"latency-plot: {problem}", file=sys.stderr)
-        return 1
-    finally:
-        clock.leave()
-    return 0
+
+    def work():
+        banner = Platform().banner()
+        trace = IntervalTrace(([("base", o.base)] if o.base < o.servo else []) + [("servo", o.servo)])
+        if o.nox:
+            print(banner, flush=True)
+            print_lines(trace, o)
+        else:
+            from .strip_chart import show_strips
+            show_strips(trace, o, banner)
+    return run_tool("latency-plot", work, own_session=True)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A realtime session for a measuring tool, and what to know of the machine it runs on."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from .. import clock
 from ..language import _
 from ..tree import Tree
 
+SETTLE_S = 0.02         # for a thread to see that a pin was set
 CPU = Path("/sys/devices/system/cpu")
 
 
@@ -53,6 +55,63 @@ class RealtimeSession:
                 print(problem, file=sys.stderr)
         realtime("stop")
         return False
+
+
+def run_tool(program: str, work, own_session: bool) -> int:
+    """Calls work(), in a realtime session of its own or in the one that runs; the exit status. Interrupts end it."""
+    clock.join(program)
+    try:
+        with RealtimeSession() if own_session else contextlib.nullcontext():
+            work()
+    except KeyboardInterrupt:
+        pass
+    except ToolError as problem:
+        print(f"{program}: {problem}", file=sys.stderr)
+        return 1
+    finally:
+        clock.leave()
+    return 0
+
+
+def each_second(lines, seconds: int, pause_s: float = 1.0):
+    """Prints lines(elapsed seconds) once a second; `seconds` 0: for ever. pause_s: less where lines() takes time itself."""
+    start = clock.now()
+    while True:
+        clock.sleep(pause_s)
+        elapsed = round(clock.now() - start)
+        for line in lines(elapsed):
+            print(line, flush=True)
+        if seconds and elapsed >= seconds:
+            return
+
+
+def pulse(*pins: str):
+    """Sets them for as long as a thread needs to see it, then clears them."""
+    import hal
+    for value in ("1", "0"):
+        for pin in pins:
+            hal.set_p(pin, value)
+        if value == "1":
+            clock.sleep(SETTLE_S)
+
+
+def fetch(streams: dict) -> list[list]:
+    """What the component of each prefix sends into its stream when asked. streams: hal.stream by prefix."""
+    import hal
+    for prefix, stream in streams.items():
+        while stream.readable:
+            stream.read()
+        hal.set_p(f"{prefix}.stream", "1")
+    clock.sleep(SETTLE_S)
+    found = []
+    for prefix, stream in streams.items():
+        values = []
+        while stream.readable:
+            values.append(stream.read()[0])
+        found.append(values)
+        hal.set_p(f"{prefix}.stream", "0")
+    clock.sleep(SETTLE_S)
+    return found
 
 
 def _read(path: Path) -> str:
