@@ -163,6 +163,39 @@ std::vector<std::tuple<int, double, double, double, double>> columns(py::buffer 
     return out;
 }
 
+/// The samples first..last (may reach beyond the data) in figures: (least, greatest, mean, period). period: samples
+/// between two rises through the middle, on the average; 0 with fewer than two rises. None where there are no samples.
+py::object measure(py::buffer data, double first, double last)
+{
+    py::buffer_info info = data.request();
+    if (info.itemsize != sizeof(double) || info.ndim != 1) throw std::invalid_argument("an array of doubles is needed");
+    const double *v = static_cast<const double *>(info.ptr);
+    const double n = static_cast<double>(info.shape[0]);
+    const long long a = static_cast<long long>(std::ceil(std::clamp(first, 0.0, n)));
+    const long long b = static_cast<long long>(std::floor(std::clamp(last, -1.0, n - 1))) + 1;
+    if (a >= b) return py::none();
+    double low = v[a], high = v[a], sum = 0;
+    for (long long i = a; i < b; i++) {
+        if (v[i] < low) low = v[i];
+        if (v[i] > high) high = v[i];
+        sum += v[i];
+    }
+    const double middle = low / 2 + high / 2, noise = (high - low) / 8; // smaller changes are no rises
+    long long rises = 0, from = 0, to = 0;
+    bool below = false;
+    for (long long i = a; i < b && high > low; i++) {
+        if (v[i] < middle - noise) {
+            below = true;
+        } else if (below && v[i] > middle + noise) {
+            below = false;
+            if (rises++ == 0) from = i;
+            to = i;
+        }
+    }
+    const double period = rises > 1 ? static_cast<double>(to - from) / static_cast<double>(rises - 1) : 0.0;
+    return py::make_tuple(low, high, sum / static_cast<double>(b - a), period);
+}
+
 } // namespace
 
 PYBIND11_MODULE(kerf_scope, m)
@@ -179,6 +212,7 @@ PYBIND11_MODULE(kerf_scope, m)
     m.attr("DONE") = int(SCOPE_DONE);
     m.attr("RESET") = int(SCOPE_RESET);
     m.attr("ROLL") = int(SCOPE_ROLL);
+    m.def("measure", &measure, py::arg("data"), py::arg("first"), py::arg("last"));
     m.def("columns", &columns, py::arg("data"), py::arg("first"), py::arg("last"), py::arg("columns"));
     py::class_<Scope>(m, "Scope")
         .def(py::init<int>(), py::arg("comp_id"), "Maps the memory of scope_rt; RuntimeError when it is not loaded.")

@@ -136,6 +136,20 @@ def operate(s):
     found = s.display.readout(width // 2)
     print("readout", text == ["f(% 8.5f) = % 8.5f (ddt % 8.5f)" % found])
 
+    def words(tag):
+        s.root.update()
+        return [s.display.itemcget(i, "text") for i in s.display.find_withtag(tag) if s.display.type(i) == "text"]
+    click(s, width // 2 + 100, 40, button=3)
+    s.display.event_generate("<Motion>", x=width // 2, y=40)
+    found, other = s.display.readout(width // 2), s.display.readout(width // 2 + 100)
+    line = words("readout")[0].split("\n")[1].split()
+    print("second cursor", line[:3], abs(float(line[3]) - (found[0] - other[0])) < 1e-6, abs(float(line[-1]) - (found[1] - other[1])) < 1e-4)
+    click(s, width // 2 + 102, 40, button=3)
+    print("gone", [t.count("\n") for t in words("readout")])
+    settings.zoom = 1
+    s.changed()
+    print("measured", words("measured")[0].split("mean")[0], words("measured")[0].split()[-2:])
+
     # Sliders and the offset.
     s.vertical._set_gain(3.2)
     s.vertical._set_pos(0.3)

@@ -4,8 +4,9 @@
 import math
 import tkinter as tk
 
-from kerf_scope import columns
+from kerf_scope import columns, measure
 
+from ..language import _
 from . import geometry as geo, settings as st
 
 COLOURS = ("#ffe15a", "#4dd2ff", "#ff7ac6", "#7dff7a", "#ffa64d", "#b9a2ff", "#ff6b6b", "#5affd2",
@@ -25,10 +26,12 @@ class Display(tk.Canvas):
         self._drag = None            # what the left button moves
         self._pending = None
         self._pointer = None         # column of the pointer while it is here
+        self._mark = None            # time (s) of the second cursor
         self.bind("<Configure>", lambda _e: self.later())
         self.bind("<ButtonPress-1>", self._press)
         self.bind("<B1-Motion>", self._move)
         self.bind("<ButtonRelease-1>", self._release)
+        self.bind("<ButtonPress-3>", lambda event: self.set_mark(event.x))
         self.bind("<ButtonPress-2>", self._press_middle)
         self.bind("<B2-Motion>", self._move_middle)
         self.bind("<Motion>", self._point)
@@ -80,6 +83,7 @@ class Display(tk.Canvas):
         for number in numbers:
             self._draw_baseline(number)
         self._draw_trigger(h)
+        self._draw_measured(h)
         self._draw_readout()
         text = self._owner.state_text()
         if text:
@@ -128,7 +132,35 @@ class Display(tk.Canvas):
         self.create_line(x - r, y - sign * r, x, y - sign * r, x, y + sign * r, x + r, y + sign * r, fill=TRIGGER,
                          width=self._style.px(2), tags=("trigger", "edge"))
 
+    def _draw_measured(self, h):
+        """Of the selected trace, the part in sight in figures; the second cursor."""
+        number, record = self._owner.settings.selected, self._owner.record
+        width, height = self.size
+        if self._mark is not None:
+            x = self._column(h, self._mark)
+            self.create_line(x, 0, x, height, fill=WORDS, dash=(8, 4), tags="mark")
+        found = measure(record.values[number], h.start, h.sample(width)) if number and record and number in record.values else None
+        if found:
+            low, high, mean, period = found
+            text = _("least %.6g  greatest %.6g  p-p %.6g  mean %.6g") % (low, high, high - low, mean)
+            if period:
+                text += "  f " + geo.engineering(1 / (period * h.period), "Hz")
+            self.create_text(8, 8, anchor="nw", text=text, fill=COLOURS[number - 1], font="TkFixedFont", tags="measured")
+
     # ---- The mouse
+
+    @staticmethod
+    def _column(h, time):
+        return h.x(time / h.period + h.trigger)
+
+    def set_mark(self, x):
+        """The second cursor comes here, or goes when it is here already."""
+        h = self.horizontal()
+        if self._mark is not None and abs(self._column(h, self._mark) - x) <= self._tolerance():
+            self._mark = None
+        else:
+            self._mark = h.time(x)
+        self.later()
 
     def zoom(self, x, steps):
         """The sample under the pointer stays there."""
@@ -226,6 +258,9 @@ class Display(tk.Canvas):
         colour = COLOURS[self._owner.settings.selected - 1]
         self.create_line(self._pointer, 0, self._pointer, self.size[1], fill=colour, dash=(1, 4), tags="readout")
         text = "f(% 8.5f) = % 8.5f (ddt % 8.5f)" % found
+        if other := self._mark is not None and self.readout(self._column(self.horizontal(), self._mark)):
+            far = found[0] - other[0]
+            text += "\n" + _("from the mark: %.6g s (%s), %.6g") % (far, geo.engineering(1 / abs(far), "Hz") if far else "----", found[1] - other[1])
         self.create_text(8, self.size[1] - 8, anchor="sw", text=text, fill=colour, font="TkFixedFont", tags="readout")
 
 
