@@ -44,6 +44,18 @@ def script(op):
     op.wait(0.5)
     op.idle()
     print([op.position(i) for i in range(3)], file=out)
+    app.root.tk.call(".pane.top.right", "raise", "ngcgui1")
+    op.wait(0.2)
+    entry, text = line.rows[0][1:]
+    entry.focus_force()
+    values = []
+    for key in ("Control-c", "Control-d", "Control-f", "x", "Escape"):
+        app.root.update()
+        entry.event_generate(f"<{key}>")
+        app.root.update()
+        values.append(text.get())
+    print("keys:", values, line.program.features[0][0], app.root.tk.call(".pane.top.right", "raise"), file=out)
+    line.restart()
     tabs.add("line.ngc")
     op.wait(0.2)
     print([p.name for p in tabs.pages], "cut off:", clipped(line.frame), file=out)

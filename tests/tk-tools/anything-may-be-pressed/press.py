@@ -39,7 +39,7 @@ def histogram(root):
 def ngc(root):
     page = ngcgui.Page(root, tkstyle.apply(root), ngcgui.options(["-S", "pocket.ngc"]), coordinate=lambda letter: 1.5)
     page.frame.pack(fill="both", expand=True)
-    page.bind_keys(root)
+    page.bind_keys(root.bind_all)
     return page
 
 

@@ -10,7 +10,7 @@ style = tkstyle.apply(root)
 o = ngcgui.options(["-S", "subs/pocket.ngc", "-p", ":G21", "--noauto"])
 page = ngcgui.Page(root, style, o, coordinate=lambda letter: {"x": 3.5}.get(letter))
 page.frame.pack(fill="both", expand=True)
-page.bind_keys(root)
+page.bind_keys(root.bind_all)
 tkstyle.centre(root, style.px(720), style.px(560))
 hand = Hand(root)
 bad = style.colours["bad"]

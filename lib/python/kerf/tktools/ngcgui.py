@@ -37,7 +37,7 @@ class Page:
 
     def __init__(self, parent, style, options, find=lambda *_: None, coordinate=None):
         self.parent, self.style, self.o, self.find, self.coordinate = parent, style, options, find, coordinate
-        self.form, self.rows, self.last = None, [], None
+        self.form, self.rows, self.last, self.key_tag = None, [], None, f"NgcguiKeys{id(self)}"
         self.program = Program(options.preamble, options.postamble, options.m2)
         self.retain, self.expand = tk.BooleanVar(parent, True), tk.BooleanVar(parent, False)
         self.autosend, self.verbose = tk.BooleanVar(parent, options.autosend), tk.BooleanVar(parent, not options.quiet)
@@ -123,6 +123,7 @@ class Page:
                 widget.grid(row=row, column=column, sticky="w", padx=px(3), pady=px(1))
             self.entries.wheel(number, entry, label)
             text.trace_add("write", lambda *_, t=text, e=entry: self.colour(t, e))
+            entry.bindtags((self.key_tag, *entry.bindtags()))
             entry.bind("<KeyPress>", lambda event, t=text: self.entry_key(event, t))
             for key, step in (("<Return>", 1), ("<Down>", 1), ("<Up>", -1)):
                 entry.bind(key, lambda event, r=row - 1, s=step: self.rows[(r + s) % len(self.rows)][1].focus_set())
@@ -271,21 +272,24 @@ class Page:
     def show_keys(self):
         messagebox.showinfo(TITLE, KEYS, parent=self.parent)
 
-    def bind_keys(self, window):
-        """The keys of the whole window."""
+    def show_status(self):
+        self.say(_("%d features, last file: %s") % (len(self.program.features), self.last or _("none")))
+
+    def bind_keys(self, bind):
+        """bind(key, handler): for the whole window, or a class of widgets."""
         def flip(variable):
             variable.set(not variable.get())
             self.show_state()
         actions = {"a": lambda: flip(self.autosend), "c": self.clear, "d": self.defaults, "e": lambda: self.edit(self.last), "E": lambda: flip(self.expand),
                    "f": self.create, "F": self.finalize, "k": self.show_keys, "n": self.restart, "p": self.choose_preamble, "P": self.choose_postamble,
                    "r": self.reread, "R": lambda: flip(self.retain), "q": lambda: flip(self.verbose),
-                   "s": lambda: self.say(_("%d features, last file: %s") % (len(self.program.features), self.last or _("none"))),
+                   "s": self.show_status, "S": self.show_status,
                    "u": lambda: self.edit(self.form.path if self.form else None), "U": lambda: self.edit(self.program.preamble)}
         for key, action in actions.items():
             def handler(_event, a=action):
                 a()
                 return "break"
-            window.bind_all(f"<Control-{key}>", handler)
+            bind(f"<Control-{key}>", handler)
 
 
 def machine_position():
@@ -368,7 +372,7 @@ def main(arguments):
             setattr(o, name, str(folder / value))
     page = Page(root, style, o, find, machine_position())
     page.frame.pack(fill="both", expand=True)
-    page.bind_keys(root)
+    page.bind_keys(root.bind_all)
     root.update_idletasks()
     tkstyle.centre(root, style.px(720), max(style.px(520), root.winfo_reqheight()), (style.px(480), style.px(360)))
     root.protocol("WM_DELETE_WINDOW", page.exit)

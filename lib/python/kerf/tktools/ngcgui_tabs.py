@@ -89,6 +89,8 @@ class EmbeddedPage(Page):
         self.tabs, self.name = tabs, name
         super().__init__(frame, style, o, tabs.find, self.position)
         self.buttons["Exit"].pack_forget()
+        self.bind_keys(lambda key, action: frame.bind_class(self.key_tag, key, action))
+        frame.bind_class(self.key_tag, "<Escape>", lambda event: tabs.notebook("raise", "preview") and None)     # and what AXIS does
         row = ttk.Frame(self.frame)
         row.pack(side="bottom", fill="x")
         for text, option, action in ((N_("new"), "nonew", lambda: tabs.add(o.subfile)), (N_("remove"), "noremove", lambda: tabs.remove(self)),
