@@ -162,6 +162,15 @@ void DryRun::digest_one(const NMLmsg &m) {
     }
 }
 
+int DryRun::prepared() const {
+    const int idx = stat_->io.tool.pocketPrepped;
+    if (idx < 0) return -1;
+    if (idx == 0 && !tool_mmap_is_random_toolchanger()) return 0;
+    CANON_TOOL_TABLE t = tooldata_entry_init();
+    tooldata_get(&t, idx);
+    return t.toolno;
+}
+
 std::vector<AnyMessage> DryRun::modes() const {
     std::vector<AnyMessage> orders;
     for (const auto &[key, m] : last_)

@@ -42,6 +42,7 @@ public:
     const EmcPose &position() const { return stat_->motion.traj.position; }
     double highest_z() const { return highest_z_; }      // machine units, of all moves before
     int tool() const { return stat_->io.tool.toolInSpindle; }
+    int prepared() const;                                // tool number that a T word has called for, -1 none
     double feed() const { return feed_; }                // machine units a second, of the last feed move; 0 none
     const EMC_STAT &stat() const { return *stat_; }
     // Orders that put the modes of motion and the status in place; those that start something.

@@ -194,7 +194,7 @@ private:
     enum class Restore { none, looking, shown, tool } restore_ = Restore::none;
     std::unique_ptr<DryRun> dry_;
     OffsetsNow looked_offsets_;
-    int looked_tool_ = 0;
+    int looked_tool_ = 0, looked_prepared_ = -1;
     bool line_read_ = false;         // the interpreter has read a line that is to be executed
     bool run_from_line_restores_ = false;
     // MDI

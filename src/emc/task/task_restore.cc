@@ -84,6 +84,7 @@ int Task::plan_restore(int line) {
     }
     looked_offsets_ = executed_offsets_;
     looked_tool_ = stat_.io.tool.toolInSpindle;
+    looked_prepared_ = stat_.io.tool.pocketPrepped;
     restore_ = Restore::looking;
     return 0;
 }
@@ -115,6 +116,7 @@ std::string Task::restore_text() const {
     if (dry_->tool() != stat_.io.tool.toolInSpindle)
         add("tool T" + std::to_string(dry_->tool()) + " is changed in for T" + std::to_string(stat_.io.tool.toolInSpindle));
     else add("tool T" + std::to_string(dry_->tool()) + " stays");
+    if (dry_->prepared() >= 0 && dry_->stat().io.tool.pocketPrepped != looked_prepared_) add("tool T" + std::to_string(dry_->prepared()) + " is prepared");
     for (const AnyMessage &m : dry_->tool_table()) add("the tool table's T" + std::to_string(as<EMC_TOOL_SET_OFFSET>(*m).toolno) + " is set");
     const EmcPose &end = dry_->position(), &here = stat_.motion.traj.position;
     if (same_place(end, here)) add("the machine is in place");
@@ -203,6 +205,11 @@ void Task::restore_step() {
         for (const AnyMessage &m : orders) list_.append(*m, line);
     };
     append(table);
+    if (dry->prepared() >= 0 && dry->stat().io.tool.pocketPrepped != stat_.io.tool.pocketPrepped) {
+        EMC_TOOL_PREPARE prepare;
+        prepare.tool = dry->prepared();
+        list_.append(prepare, line);
+    }
     const bool travel = !same_place(end, here);
     if (travel) {
         EMC_TRAJ_SET_TERM_COND exact;
