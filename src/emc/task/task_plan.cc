@@ -510,6 +510,7 @@ void Task::failed_at(int line) {
 
 // Says what went wrong; the program ends when all it asked for before has been done.
 void Task::interp_failed(int code, bool executing) {
+    canon_->FINISH(); // moves that are still being joined
     const char *text = tell_fault(code);
     const Fault &f = interp_->fault();
     if (f.line > 0 && !f.text.empty()) {

@@ -17,6 +17,8 @@ SUB = "o<inner> sub\nG0 X2\n{}\nG0 X7\no<inner> endsub\n"
 MISTAKES = {
     "reading": ("G0 X2\nG1 X[1/0\nG0 X7\n", 2),
     "executing": ("F100 G0 X2\nG2 X10 Y0 R1\nG0 X7\n", 2),
+    "reading, after feeds": ("G1 F1000 X1.5\nG1 X2\nG999\nG0 X7\n", 2),
+    "executing, after feeds": ("G1 F1000 X1.5\nG1 X2\nG2 X10 Y0 R1\nG0 X7\n", 2),
     "after many lines": ("".join(f"G0 X{n % 2}\n" for n in range(200)) + "G0 X2\nG1 X[1/0]\n", 2),
     "after a queue buster": ("G0 X2\nM66 P0 L0\nG1 X[1/0]\n", 2),
     "behind a dwell": ("G0 X2\nG4 P0.5\nG1 X[1/0]\n", 2),
