@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <mutex>
 
 #include "kerf_clock.h"
 #include "kerf_paths.h"
 #include "nml_code.hh"
+#include "nml_server.hh"
 #include "nml_transport.hh"
 #include "rcs_print.hh"
 
@@ -28,6 +30,10 @@ const char *MessageSet::name(NMLTYPE type) const {
     const MessageType *m = find(type);
     return m ? m->name : "UNKNOWN";
 }
+
+// Those of this process whose buffer was found, for run_nml_servers.
+static std::mutex all_guard;
+static std::vector<NML *> all_connections;
 
 } // namespace nml
 
@@ -69,9 +75,15 @@ NML::NML(const nml::MessageSet &set, const char *buffer, const char *process, co
     can_write_ = c->process.write || c->process.server;
     connection_ = std::make_unique<nml::Connection>(*c);
     reconnect();
+    std::lock_guard<std::mutex> hold(nml::all_guard);
+    nml::all_connections.push_back(this);
 }
 
-NML::~NML() = default;
+NML::~NML() {
+    std::lock_guard<std::mutex> hold(nml::all_guard);
+    auto &all = nml::all_connections;
+    all.erase(std::remove(all.begin(), all.end(), this), all.end());
+}
 
 void NML::disconnect() {
     transport_.reset();
@@ -93,6 +105,39 @@ bool NML::reconnect() {
     }
     local_.resize(static_cast<size_t>(std::max(transport_->max_message(), static_cast<long>(sizeof(NMLmsg)))));
     return true;
+}
+
+int NML::reset() {
+    if (!transport_ || remote_) return reconnect() ? 0 : -1;
+    set_status(CMS_STATUS_NOT_SET);
+    return 0;
+}
+
+int NML::login(const char *name, const char *password) {
+    if (!connection_ || !name || !password) return -1;
+    connection_->login_name = name;
+    connection_->login_password = password;
+    if (!remote_) return valid() ? 0 : -1;
+    if (!transport_) return reconnect() ? 0 : -1;
+    return transport_->login(name, password) ? 0 : -1;
+}
+
+int run_nml_servers(const volatile int *stop) {
+    nml::Server server;
+    bool any = false;
+    {
+        std::lock_guard<std::mutex> hold(nml::all_guard);
+        for (NML *channel : nml::all_connections) {
+            const nml::Connection &c = *channel->connection();
+            if (c.process.server != 1 || c.buffer.tcp_port <= 0 || !channel->valid()) continue;
+            server.add(*channel, c.buffer);
+            any = true;
+        }
+    }
+    if (!any || !server.listen()) return -1;
+    static const volatile int never = 0;
+    server.run(stop ? stop : &never);
+    return 0;
 }
 
 std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, double seconds) {

@@ -127,8 +127,10 @@ public:
     NMLTYPE blocking_read(double t);
     // 0 or -1. A command's serial number is set in msg and *serial.
     int write(NMLmsg &msg, int *serial = nullptr);
+    int write(NMLmsg *msg, int *serial = nullptr) { return msg ? write(*msg, serial) : -1; }
     // Only if the last message was read (queue: only if empty); else -1, NML_BUFFER_NOT_READ.
     int write_if_read(NMLmsg &msg, int *serial = nullptr);
+    int write_if_read(NMLmsg *msg, int *serial = nullptr) { return msg ? write_if_read(*msg, serial) : -1; }
     // For servers: as write or write_if_read, whatever the P line allows.
     int write_raw(NMLmsg &msg, bool only_if_read, int *serial);
     int check_if_read();       // 1, 0 or -1
@@ -142,6 +144,10 @@ public:
 
     void disconnect();         // gives the buffer up; valid() is false then
     bool reconnect();          // connects anew, as the constructor did
+    int reset();               // forgets the last error; what is not connected, or remote, connects anew: 0, or -1
+    // Name and password for the server of a remote buffer, instead of those of the B line's passwd= file;
+    // reconnects use them, too. 0: accepted, or the buffer is on this computer; -1.
+    int login(const char *name, const char *password);
     // A message as text (encoding `disp`), and back: its type, or -1. The text is then the last message read.
     std::string msg2str(const NMLmsg &msg) const;
     NMLTYPE str2msg(const std::string &text);
@@ -156,6 +162,7 @@ public:
     nml::Transport *transport() { return transport_.get(); }
     const std::string &buffer_name() const { return buffer_; }
     bool remote() const { return remote_; } // reached over TCP
+    const nml::Connection *connection() const { return connection_.get(); } // null: not found in the file
 
 private:
     NMLTYPE finish_read(CMS_STATUS s);
@@ -176,12 +183,16 @@ std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer,
 // File used when the constructor gets a null file. Initially the one of this installation.
 void set_default_nml_config_file(const char *file);
 const char *default_nml_config_file();
-// Host HOST is to be read as ALIAS in all .nml files read later.
+// Where B lines of .nml files read later say ALIAS, HOST is meant.
 void nmlSetHostAlias(const char *host, const char *alias);
 void nmlClearHostAliases();
 // Makes all connections remote (local) whatever the P lines say; nullptr-safe, global.
 void nmlForceRemoteConnection();
 void nmlForceLocalConnection();
+
+// Serves over TCP, on this computer, those connections of this process that serve their buffers (set_to_server,
+// P lines), until *stop is set. nullptr: for ever. 0, or -1 when there is none or a port can't be had.
+int run_nml_servers(const volatile int *stop = nullptr);
 
 extern int verbose_nml_error_messages; // 1: errors are printed. The Python module sets 0.
 

@@ -91,7 +91,7 @@ int64_t Decoder::get_text() {
     return v;
 }
 
-void Decoder::get_text(char *v, size_t room) {
+void Decoder::get_text(char *v, size_t room, bool ends) {
     std::string t;
     memset(v, 0, room);
     if (!token(&t)) return;
@@ -105,7 +105,7 @@ void Decoder::get_text(char *v, size_t room) {
             c = static_cast<unsigned char>(x);
             i += 3;
         }
-        if (n + 1 >= room) break;
+        if (n + ends >= room) break;
         v[n] = static_cast<char>(c);
         if (i + 1 == t.size()) return;
     }

@@ -52,12 +52,17 @@ public:
         else if constexpr (std::is_enum_v<T> || sizeof(T) <= 4) word(static_cast<uint32_t>(static_cast<int64_t>(v)));
         else hyper(static_cast<uint64_t>(v));
     }
+    // Text goes whole, with the zeros behind it: a reader may decode into what it read before.
     template <size_t N> void put(const char (&v)[N]) {
-        size_t n = strnlen(v, N);
-        if (text_) return put_text(v, n);
-        word(static_cast<uint32_t>(n));
-        for (size_t i = 0; i < n; i++) out_.push_back(static_cast<unsigned char>(v[i]));
-        while (out_.size() % 4) out_.push_back(0);
+        const size_t n = strnlen(v, N);
+        if (text_) put_text(v, n);
+        else bytes(v, n, N);
+    }
+    template <size_t N> void put(const unsigned char (&v)[N]) { // anything
+        size_t n = N;
+        while (n > 0 && v[n - 1] == 0) n--;
+        if (text_) put_text(reinterpret_cast<const char *>(v), n);
+        else bytes(v, n, N);
     }
     template <class T, size_t N> void put(const T (&v)[N]) { for (const T &e : v) put(e); }
     void put(const PmCartesian &p) { put(p.x); put(p.y); put(p.z); }
@@ -71,6 +76,13 @@ public:
         put(m.command_type); put(m.echo_serial_number); put(m.status); put(m._state);
     }
 private:
+    // `used` of `all` bytes, then zeros.
+    void bytes(const void *v, size_t used, size_t all) {
+        word(static_cast<uint32_t>(all));
+        const unsigned char *from = static_cast<const unsigned char *>(v);
+        out_.insert(out_.end(), from, from + used);
+        out_.resize(out_.size() + ((all + 3) & ~size_t(3)) - used);
+    }
     void put_text(double v);
     void put_text(int64_t v);
     void put_text(const char *v, size_t n);
@@ -107,12 +119,15 @@ public:
         else v = static_cast<T>(hyper());
     }
     template <size_t N> void get(char (&v)[N]) {
-        if (text_) return get_text(v, N);
-        size_t n = word(), padded = (n + 3) & ~size_t(3);
-        std::memset(v, 0, N);
-        if (n >= N || padded > static_cast<size_t>(end_ - at_)) { failed_ = true; at_ = end_; return; }
-        std::memcpy(v, at_, n);
-        at_ += padded;
+        if (text_) return get_text(v, N, true);
+        bytes(v, N);
+        if (memchr(v, 0, N)) return;
+        failed_ = true; // text ends
+        v[N - 1] = 0;
+    }
+    template <size_t N> void get(unsigned char (&v)[N]) {
+        if (text_) get_text(reinterpret_cast<char *>(v), N, false);
+        else bytes(v, N);
     }
     template <class T, size_t N> void get(T (&v)[N]) { for (T &e : v) get(e); }
     void get(PmCartesian &p) { get(p.x); get(p.y); get(p.z); }
@@ -128,10 +143,18 @@ public:
     }
     void get_status(RCS_STAT_MSG &m) { get(m.command_type); get(m.echo_serial_number); get(m.status); get(m._state); }
 private:
+    // At most `room` bytes, then zeros.
+    void bytes(void *v, size_t room) {
+        const size_t n = word(), padded = (n + 3) & ~size_t(3);
+        std::memset(v, 0, room);
+        if (n > room || padded > static_cast<size_t>(end_ - at_)) { failed_ = true; at_ = end_; return; }
+        std::memcpy(v, at_, n);
+        at_ += padded;
+    }
     bool token(std::string *out);
     void get_text(double &v);
     int64_t get_text();
-    void get_text(char *v, size_t room);
+    void get_text(char *v, size_t room, bool ends); // ends: with a zero
     const unsigned char *at_, *end_;
     bool failed_ = false, text_;
 };

@@ -50,6 +50,7 @@ struct ProcessLine {
 struct Connection {
     BufferLine buffer;
     ProcessLine process;
+    std::string login_name, login_password; // for the server; empty: those of buffer.passwd
 };
 
 // Looks the connection up; on failure prints the reason (if verbose) and returns nothing.

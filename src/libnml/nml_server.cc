@@ -88,7 +88,7 @@ bool Server::reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, 
     CMS_STATUS s = access == ACCESS_PEEK ? t->peek(raw.data(), &size) : t->read(raw.data(), &size);
     if (only_new && s == CMS_READ_OLD) return false;
     if (s == CMS_READ_OK) {
-        body = encode_message(set_, *reinterpret_cast<NMLmsg *>(raw.data()), b.line.coding);
+        body = encode_message(b.channel->messages(), *reinterpret_cast<NMLmsg *>(raw.data()), b.line.coding);
         if (body.empty() || (b.line.enc_max_size > 0 && body.size() > static_cast<size_t>(b.line.enc_max_size))) {
             body.clear();
             s = CMS_SERVER_SIDE_ERROR;
@@ -165,6 +165,9 @@ bool Server::login(Client &c, const unsigned char *data, Buffer &b) {
 // One request. False: the client is to be dropped.
 bool Server::answer(Client &c, const unsigned char *head, const unsigned char *data, size_t size) {
     uint32_t serial = get_word(head), type = get_word(head + 4), number = get_word(head + 8), w3 = get_word(head + 12), w4 = get_word(head + 16);
+    if (!c.begun && type == REQ_GET_BUF_NAME && serial == 0) c.counts = 1; // how those begin
+    c.begun = true;
+    serial += c.counts;
     auto it = buffers_.find({c.port, static_cast<int>(number)});
     auto words = [&](std::initializer_list<uint32_t> w) { for (uint32_t v : w) put_word(c.out, v); };
     if (it == buffers_.end()) {
@@ -173,7 +176,8 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
         return true;
     }
     Buffer &b = it->second;
-    if (!b.line.passwd.empty() && !c.trusted.count(static_cast<int>(number)) && type != REQ_GET_KEYS && type != REQ_LOGIN && type != REQ_CLOSE_CHANNEL) {
+    if (!b.line.passwd.empty() && !c.trusted.count(static_cast<int>(number)) && type != REQ_GET_KEYS && type != REQ_LOGIN && type != REQ_CLOSE_CHANNEL &&
+        type != REQ_GET_BUF_NAME) {
         rcs_print_error("NML server: %s wants %s without a login\n", c.peer.c_str(), b.line.name.c_str());
         return false;
     }
@@ -195,7 +199,7 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
             NMLmsg *m = reinterpret_cast<NMLmsg *>(raw.data());
             CMS_STATUS s = CMS_UPDATE_ERROR;
             int id = 0;
-            if (decode_message(set_, data, size, m, raw.size(), b.line.coding)) {
+            if (decode_message(b.channel->messages(), data, size, m, raw.size(), b.line.coding)) {
                 b.channel->write_raw(*m, w3 == ACCESS_WRITE_IF_READ, &id);
                 s = b.channel->status;
                 if (s == CMS_WRITE_OK && wrote) wrote(c.id, *b.channel, *m);

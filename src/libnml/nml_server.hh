@@ -20,8 +20,10 @@ namespace nml {
 
 class Server {
 public:
-    explicit Server(const MessageSet &set) : set_(set) {}
+    Server() = default;
     ~Server();
+    Server(const Server &) = delete;
+    Server &operator=(const Server &) = delete;
     // The channel (not owned) answers requests for buffer `number` on `port`.
     void add(NML &channel, const BufferLine &line);
     // Opens the ports on `address`, "*" for all of this computer's. False when one could not be
@@ -40,6 +42,8 @@ private:
     struct Client {
         int fd, port, id;
         std::string peer;
+        uint32_t counts = 0; // 1: its replies have numbers one above those of their requests, as classic clients expect
+        bool begun = false;
         std::set<int> trusted; // numbers of the buffers with passwd= that it has logged in to
         std::string challenge;
         std::vector<unsigned char> in, out;
@@ -55,7 +59,6 @@ private:
     bool consume(Client &c);
     bool answer(Client &c, const unsigned char *head, const unsigned char *data, size_t size);
     bool reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id, bool only_new);
-    const MessageSet &set_;
     std::map<std::pair<int, int>, Buffer> buffers_; // (port, number)
     std::vector<std::pair<int, int>> listeners_;    // (fd, port)
     std::vector<Client> clients_;

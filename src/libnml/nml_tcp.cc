@@ -85,6 +85,12 @@ public:
         return static_cast<CMS_STATUS>(static_cast<int32_t>(get_word(head + 4)));
     }
 
+    bool login(const std::string &name, const std::string &password) override {
+        conn_.login_name = name;
+        conn_.login_password = password;
+        return fd_ < 0 ? reconnect() : login();
+    }
+
 private:
     CMS_STATUS number(Request what, int *n) {
         unsigned char r[12];
@@ -114,7 +120,7 @@ private:
     CMS_STATUS exchange(Request what, uint32_t w3, uint32_t w4, const std::vector<unsigned char> &body, unsigned char *reply, size_t reply_size) {
         if (fd_ < 0 && !reconnect()) return CMS_NO_SERVER_ERROR;
         std::vector<unsigned char> out;
-        put_word(out, static_cast<uint32_t>(++serial_));
+        put_word(out, static_cast<uint32_t>(serial_++));
         put_word(out, what);
         put_word(out, static_cast<uint32_t>(conn_.buffer.number));
         put_word(out, w3);
@@ -180,13 +186,21 @@ private:
                 int one = 1;
                 setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
                 fd_ = fd;
+                serial_ = 0;
             } else {
                 close(fd);
             }
         }
         freeaddrinfo(found);
-        if (fd_ >= 0 && !conn_.buffer.passwd.empty() && !login()) {
-            rcs_print_error("NML: the server of buffer %s at %s refuses the login of %s\n", conn_.buffer.name.c_str(), conn_.buffer.host.c_str(), conn_.buffer.passwd.c_str());
+        if (fd_ >= 0 && !right_buffer()) {
+            rcs_print_error("NML: buffer %d at %s port %s is not %s\n", conn_.buffer.number, conn_.buffer.host.c_str(), port.c_str(), conn_.buffer.name.c_str());
+            drop();
+            return false;
+        }
+        const bool named = !conn_.login_name.empty();
+        if (fd_ >= 0 && (named || !conn_.buffer.passwd.empty()) && !login()) {
+            rcs_print_error("NML: the server of buffer %s at %s refuses the login of %s\n", conn_.buffer.name.c_str(), conn_.buffer.host.c_str(),
+                            (named ? conn_.login_name : conn_.buffer.passwd).c_str());
             drop();
             return false;
         }
@@ -194,10 +208,18 @@ private:
         return fd_ >= 0;
     }
 
+    // The first request of a classic client: what the buffer of this number is called.
+    bool right_buffer() {
+        unsigned char r[8 + NAME_BYTES];
+        if (exchange(REQ_GET_BUF_NAME, 0, 0, {}, r, sizeof r) != CMS_STATUS_NOT_SET) return false;
+        return strncmp(reinterpret_cast<const char *>(r + 8), conn_.buffer.name.c_str(), NAME_BYTES - 1) == 0;
+    }
+
     // Answers the server's challenge; the password itself stays here.
     bool login() {
         std::string problem;
-        std::vector<Login> logins = read_logins(conn_.buffer.passwd, &problem);
+        std::vector<Login> logins{{conn_.login_name, conn_.login_password}};
+        if (conn_.login_name.empty()) logins = read_logins(conn_.buffer.passwd, &problem);
         if (logins.empty()) { rcs_print_error("NML: %s\n", problem.c_str()); return false; }
         std::string name = logins[0].name.substr(0, 16);
         std::vector<unsigned char> body(16), keys(20), result(8);

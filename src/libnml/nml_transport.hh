@@ -29,6 +29,7 @@ public:
     virtual CMS_STATUS space_available(long *bytes) = 0;
     virtual CMS_STATUS message_count(int *count) = 0;
     virtual CMS_STATUS diagnose(std::vector<Diagnosis> *) { return CMS_NO_IMPLEMENTATION_ERROR; }
+    virtual bool login(const std::string &, const std::string &) { return true; } // name, password; false: refused
     // Number of the last message read, as read() compares it; a server sets its client's.
     virtual int last_id() const { return 0; }
     virtual void set_last_id(int) {}

@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-PUBLIC_HEADERS += $(addprefix src/emc/nml/,messages.hh messages.def)
+PUBLIC_HEADERS += $(addprefix src/emc/nml/,messages.hh messages.def rcs.hh emc.hh emc_nml.hh nml_oi.hh)
+# The messages, for client programs of others: g++ client.cc -llinuxcnc -lnml.
+ARCHIVES += $(T)/lib/liblinuxcnc.a
+$(T)/lib/liblinuxcnc.a: $(call objs,ul,src/emc/nml/messages.cc)
+	$(call say,LIB,$@)
+	$(Q)mkdir -p $(@D) && rm -f $@ && $(AR) rcs $@ $^
+EXTRA_TARGETS += $(ARCHIVES)
 
 # Documents made from the descriptions: docs/nml-messages.md (tests/docs checks it), Python's stubs.
 NML_DESCRIBE_OBJECTS := $(call objs,ul,src/emc/nml/nml_describe.cc src/emc/nml/messages.cc)

@@ -48,7 +48,7 @@ int main(int argc, char **argv) {
                   ini.findStringV("VERSION", "EMC", "unknown").c_str());
     std::string file = ini.findStringV("NML_FILE", "EMC", default_nml_config_file());
 
-    nml::Server server(emc_messages());
+    nml::Server server;
     std::vector<std::unique_ptr<NML>> channels;
     std::vector<const char *> names = {"emcCommand", "emcStatus", "emcError"};
     for (const nml::BufferLine &b : nml::buffers_of(file))

@@ -321,6 +321,7 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
     std::string name = m.file;
     if (m.remote_filesize > 0) { // comes in pieces from another machine
         if (upload_fd_ < 0) {
+            plan_close();
             const char *tmp = getenv("TMPDIR");
             std::string base = name.substr(name.find_last_of('/') == std::string::npos ? 0 : name.find_last_of('/') + 1);
             upload_name_ = std::string(tmp && *tmp ? tmp : "/tmp") + "/" + base + ".XXXXXX";
@@ -344,6 +345,8 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
         close(upload_fd_);
         upload_fd_ = -1;
         name = upload_name_;
+    } else {
+        plan_close(); // clients that open a second program need not close the first
     }
     EMC_TASK_STAT &t = stat_.task;
     forget_restore();

@@ -243,7 +243,7 @@ static void many_clients_lose_nothing() {
 static void tcp_carries_every_message() {
     Master m;
     static volatile int stop = 0;
-    nml::Server server(emc_messages());
+    nml::Server server;
     for (auto &b : nml::buffers_of(nml_file)) server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
     if (!server.listen()) { printf("no port\n"); return; }
     std::thread serving([&] { server.run(&stop); });
@@ -445,7 +445,7 @@ static void calls_give_the_documented_results() {
 static void messages_as_text_and_connections() {
     Master m;
     static volatile int stop = 0;
-    nml::Server server(emc_messages());
+    nml::Server server;
     for (auto &b : nml::buffers_of(nml_file)) server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
     if (!server.listen()) { printf("no port\n"); return; }
     std::thread serving([&] { server.run(&stop); });

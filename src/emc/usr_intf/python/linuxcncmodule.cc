@@ -258,18 +258,20 @@ void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
     EMC_TASK_PLAN_OPEN m;
     copy_text(m.file, file.c_str());
     if (c.client.remote()) {
-        std::ifstream in(file, std::ios::binary | std::ios::ate);
+        std::ifstream in(file, std::ios::binary);
         if (!in) {
             PyErr_SetFromErrnoWithFilename(PyExc_OSError, file.c_str());
             throw py::error_already_set();
         }
-        m.remote_filesize = static_cast<unsigned long>(in.tellg());
-        in.seekg(0);
-        do {
-            in.read(m.remote_buffer, sizeof m.remote_buffer);
-            m.remote_buffersize = static_cast<unsigned long>(in.gcount());
+        std::string content(std::istreambuf_iterator<char>(in), {});
+        if (content.empty()) content = "\n"; // 0 bytes to come would name a file over there
+        m.remote_filesize = content.size();
+        for (size_t at = 0; at < content.size(); at += sizeof m.remote_buffer) {
+            m.remote_buffersize = std::min(content.size() - at, sizeof m.remote_buffer);
+            memset(m.remote_buffer, 0, sizeof m.remote_buffer);
+            content.copy(reinterpret_cast<char *>(m.remote_buffer), m.remote_buffersize, at);
             c.give(m);
-        } while (in && m.remote_buffersize > 0);
+        }
         return;
     }
     c.give(m);

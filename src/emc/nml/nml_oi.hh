@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// nml_oi.hh - a classic name of what rcs.hh has.
+#include "rcs.hh"
