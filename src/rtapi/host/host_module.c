@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include "kerf_paths.h"
 
 struct text { /* a string parameter: the module's as long as its code is there */
@@ -235,6 +236,9 @@ int host_load(int argc, char **argv)
     m->handle = dlopen(path, RTLD_GLOBAL | RTLD_NOW);
     if (!m->handle) {
         say("%s: dlopen: %s\n", name, dlerror());
+        if (access(path, F_OK) != 0) {
+            say("%s: this system has no such module: correct the name, load another driver, or build it (halcompile --install)\n", name);
+        }
         drop(m);
         return -1;
     }
