@@ -103,7 +103,7 @@ DEPS += $(patsubst %.o,%.d,$(call objs,ul,$(2)))
 $(call objs,ul,$(2)): EXTRA += $$(PYTHON_CPPFLAGS) $(4)
 $(T)/lib/python/$(1).so: $(call objs,ul,$(2)) $(foreach l,$(filter-out -%,$(3)),$(T)/lib/lib$(l).so)
 	$$(call say,PYMOD,$$@)
-	$$(Q)mkdir -p $$(@D) && $$(CXX) $$(SAN) $$(LDFLAGS) -shared -o $$@ $(call objs,ul,$(2)) -L$(T)/lib $(addprefix -l,$(filter-out -%,$(3))) $(filter -%,$(3)) -Wl,-rpath,'$$$$ORIGIN/..' -Wl,-rpath,'$$$$ORIGIN/../../lib'
+	$$(Q)mkdir -p $$(@D) && $$(CXX) $$(SAN) $$(LDFLAGS) -shared -o $$@ $(call objs,ul,$(2)) -L$(T)/lib $(addprefix -l,$(filter-out -%,$(3))) $(filter -%,$(3)) -Wl,-rpath,'$$$$ORIGIN/..' -Wl,-rpath,'$$$$ORIGIN/../..' -Wl,-rpath,'$$$$ORIGIN/../../lib'
 endef
 # $(eval $(call script,NAME,SOURCE)): bin/NAME, an executable copy of a script.
 define script

@@ -26,6 +26,8 @@ make_test a/musthave-there 'echo x' x; echo STDIO > a/musthave-there/musthave
 make_test a/control 'echo x' x; echo 'Restrictions: sudo' > a/control/control
 mkdir a/program; cp /bin/echo a/program/test; echo > a/program/expected
 mkdir a/hal; printf 'loadrt and2\nshow funct\n' > a/hal/test.hal; printf '#!/bin/sh\ngrep -q and2.0 "$1"\n' > a/hal/checkresult; chmod +x a/hal/checkresult
+make_test a/check-plain 'echo 5'; printf 'grep -q 5 "$1" && [[ -n $TEST_DIR ]]\n' > a/check-plain/checkresult; chmod +x a/check-plain/checkresult
+make_test a/check-unset 'echo 5'; printf 'exit 0\n' > a/check-unset/checkresult
 echo "== all"; run -u a; ls a/differs a/good
 echo "== -n keeps"; run -n a/good; ls a/good
 echo "== -c removes, in all folders given"; touch a/differs/b.var.bak; run -c a/good a/differs; ls a/good a/differs
