@@ -56,7 +56,7 @@ class DrawnPicture(tk.Canvas):
         for item in scene.before:
             self.lines(r, item, matrix)
         for drawing, palette in zip(scene.drawings, scene.palettes):
-            r.draw(drawing.vertices, drawing.kinds, [rgba(c) for c in palette[:3]] + [NOTHING], matrix)
+            r.draw_drawing(drawing, [rgba(c) for c in palette[:3]] + [NOTHING], matrix)
         for number, first, last in scene.selected_spans:
             drawing = scene.drawings[number]
             r.draw(drawing.vertices, drawing.kinds, [rgba(scene.selected)] * 3 + [NOTHING], matrix, first, last, 3)

@@ -20,11 +20,13 @@ def load(name, **other):
 
 
 def furthest(path, kept):
-    """Greatest distance of a left-out vertex from the last kept one before it."""
+    """Greatest distance of a left-out vertex from the straight piece that stands for it."""
     worst = 0.0
     for a, b in zip(kept, kept[1:]):
         if b > a + 1:
-            worst = max(worst, float(np.sqrt(((path[a + 1:b] - path[a]) ** 2).sum(axis=1)).max()))
+            whole, left = path[b] - path[a], path[a + 1:b] - path[a]
+            along = np.clip(left @ whole / max(float(whole @ whole), 1e-30), 0, 1)
+            worst = max(worst, float(np.linalg.norm(left - along[:, None] * whole, axis=1).max()))
     return worst
 
 
@@ -32,7 +34,7 @@ wave = [f"G1 X{(i % 400) * 0.5 if i // 400 % 2 == 0 else 200 - (i % 400) * 0.5:.
 program = load(write("wave.ngc", wave))
 drawing = Drawing(program.positions, program.kinds, program.lines)
 path = np.array(drawing.vertices)
-print("vertices:", len(path), "levels:", drawing.levels > 3)
+print("vertices:", len(path), "levels:", drawing.levels > 3, "few are needed:", len(drawing.index(1)) < len(path) / 4)
 for level in range(1, drawing.levels):
     kept = np.array(drawing.index(level))
     if furthest(path, kept) > drawing.tolerance(level):
@@ -43,7 +45,7 @@ camera = Camera()
 camera.set_view("z")
 camera.fit(*drawing.extents)
 matrix = camera.matrix(800, 600)
-for budget in (0, 60000, 20000, 8000):
+for budget in (0, 8000, 2000, 1200):
     level, first, count, vertices, exact = drawing.choose(matrix, 800, 600, 0.7, budget)
     print("budget", budget, "kept:", budget == 0 or vertices <= budget, "exact:", exact)
 whole = drawing.choose(matrix, 800, 600, 0.0, 0)

@@ -12,6 +12,7 @@ namespace {
 
 constexpr uint8_t JUMP = 3;             // kinds up to 2 are drawn
 constexpr int FINEST = 16384, COARSEST = 32; // tolerances: parts of the drawing's size
+constexpr size_t MOST_SKIPPED = 24;      // vertices that one piece replaces in a level
 constexpr double TURN_STEP_DEG = 10, MIN_TURN_STEPS = 10;
 constexpr const char *LETTERS = "XYZABCUVW";
 
@@ -48,6 +49,16 @@ double pixels_per_inch(const Matrix &m, int width, int height, const std::array<
     }
     const double x = std::hypot(m[0], std::hypot(m[1], m[2])) * width / 2, y = std::hypot(m[4], std::hypot(m[5], m[6])) * height / 2;
     return std::max(x, y) / std::max(w, 0.05);
+}
+
+/// Square of the distance of a point from the piece a b.
+float beside2(const float *p, const float *a, const float *b)
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2], px = p[0] - a[0], py = p[1] - a[1], pz = p[2] - a[2];
+    const float length2 = dx * dx + dy * dy + dz * dz, along = px * dx + py * dy + pz * dz;
+    const float t = along <= 0 || length2 == 0 ? 0 : along >= length2 ? 1 : along / length2;
+    const float ex = px - t * dx, ey = py - t * dy, ez = pz - t * dz;
+    return ex * ex + ey * ey + ez * ez;
 }
 
 } // namespace
@@ -147,6 +158,34 @@ void Drawing::add_boxes(Level &level) const
     }
 }
 
+/// A vertex is left out while all that were left out since the last kept one lie within `reach` of the straight
+/// piece that replaces them; where the kind changes, never.
+void Drawing::simplify(const Level &from, float reach, std::vector<uint32_t> &kept) const
+{
+    const size_t n = entries(from);
+    const float reach2 = reach * reach;
+    const float *skipped[MOST_SKIPPED]; // further than reach from the last kept one
+    size_t count = 0;
+    kept.push_back(vertex(from, 0));
+    const float *anchor = &xyz_[3 * kept.back()];
+    auto keep = [&](uint32_t v) {
+        kept.push_back(v);
+        anchor = &xyz_[3 * v];
+        count = 0;
+    };
+    uint32_t before = kept.back();
+    for (size_t i = 1; i < n; ++i) {
+        const uint32_t v = vertex(from, i);
+        const float *p = &xyz_[3 * v];
+        bool straight = count < MOST_SKIPPED;
+        for (size_t k = count; straight && k > 0; --k) straight = beside2(skipped[k - 1], anchor, p) <= reach2;
+        if (!straight) keep(before);
+        if (i + 1 == n || kinds_[vertex(from, i + 1)] != kinds_[v]) keep(v);
+        else if (beside2(p, anchor, anchor) > reach2) skipped[count++] = p;
+        before = v;
+    }
+}
+
 void Drawing::build_levels()
 {
     const size_t n = kinds_.size();
@@ -161,16 +200,8 @@ void Drawing::build_levels()
         Level level;
         level.tolerance = size / parts;
         // Kept vertices of level k are within size/2parts of those dropped before: half of the tolerance is left.
-        const float reach = float(level.tolerance / 2), reach2 = reach * reach;
         const size_t before = entries(from);
-        level.index.push_back(0);
-        for (size_t i = 1; i < before; ++i) {
-            const uint32_t v = vertex(from, i);
-            const float *a = &xyz_[3 * level.index.back()], *b = &xyz_[3 * v];
-            const float dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
-            const bool ends = i + 1 == before || kinds_[vertex(from, i + 1)] != kinds_[v];
-            if (ends || dx * dx + dy * dy + dz * dz > reach2) level.index.push_back(v);
-        }
+        simplify(from, float(level.tolerance / 2), level.index);
         if (level.index.size() > before * 9 / 10) continue; // not worth a list
         level.index.shrink_to_fit();
         add_boxes(level);
@@ -221,6 +252,17 @@ Choice Drawing::choose(const Matrix &matrix, int width, int height, double pixel
         return thin;
     }
     return out;
+}
+
+void Drawing::draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, double pixels) const
+{
+    const Choice choice = choose(matrix, raster.width(), raster.height(), pixels, 0);
+    if (choice.first.empty()) return;
+    const Level &level = levels_[choice.level];
+    Path path{xyz_.data(), kinds_.data(), entries(level), 3};
+    if (level.tolerance > 0) path.index = level.index.data();
+    for (size_t i = 0; i < choice.first.size(); ++i)
+        raster.draw(path, palette, matrix, size_t(choice.first[i]), size_t(choice.first[i] + choice.count[i]));
 }
 
 std::vector<std::pair<uint32_t, uint32_t>> Drawing::spans(int32_t line) const

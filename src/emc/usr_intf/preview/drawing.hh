@@ -3,8 +3,8 @@
 //
 // Vertices of nine axes become points in space ([DISPLAY]GEOMETRY, or one plane of a foam cutter).
 // Levels of detail are lists of vertex numbers, each a subset of the one before: a vertex is left
-// out where it lies within the level's tolerance of the last one kept, so a level is never further
-// from the path than its tolerance. Lists are cut into chunks with boxes: what is outside the
+// out where it lies within the level's tolerance of the straight piece between those kept, so a level
+// is never further from the path than its tolerance. Lists are cut into chunks with boxes: what is outside the
 // window is not drawn.
 #ifndef KERF_PREVIEW_DRAWING_HH
 #define KERF_PREVIEW_DRAWING_HH
@@ -73,6 +73,8 @@ public:
     /// The coarsest level that is exact to `pixels` in a window; a coarser one where it needs more than
     /// `budget` vertices (0: no bound), and where none is small enough, every n-th chunk of the last.
     Choice choose(const Matrix &matrix, int width, int height, double pixels, size_t budget) const;
+    /// Into a picture in memory, exact to `pixels`. palette: colours of kinds.
+    void draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, double pixels) const;
     /// [first, last) vertices of each stretch that a source line draws; `first` is where it starts from.
     std::vector<std::pair<uint32_t, uint32_t>> spans(int32_t line) const;
     /// Source line nearest to a pixel within `radius`, or -1. shown: bit k for kind k.
@@ -83,6 +85,7 @@ private:
     size_t entries(const Level &l) const { return l.tolerance > 0 ? l.index.size() : kinds_.size(); }
     uint32_t vertex(const Level &l, size_t i) const { return l.tolerance > 0 ? l.index[i] : uint32_t(i); }
     void build_levels();
+    void simplify(const Level &from, float reach, std::vector<uint32_t> &kept) const;
     void add_boxes(Level &level) const;
     std::vector<float> xyz_;
     std::vector<uint8_t> kinds_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Python module kerf_raster: pictures of tool paths in memory.
 #include "module.hh"
-#include "raster.hh"
+#include "drawing.hh"
 
 #include <pybind11/stl.h>
 
@@ -107,6 +107,11 @@ PYBIND11_MODULE(kerf_raster, m)
         .def("clear", [](Raster &r, const std::array<int, 4> &c) { r.clear(colour(c)); }, py::arg("colour"))
         .def("draw", &draw, py::arg("vertices"), py::arg("kinds"), py::arg("palette"), py::arg("matrix"), py::arg("first") = 0,
              py::arg("last") = size_t(-1), py::arg("width") = 1)
+        .def("draw_drawing", [](Raster &r, const Drawing &d, const Palette &palette, const Matrix &matrix, double pixels) {
+            const auto list = colours(palette);
+            py::gil_scoped_release release;
+            d.draw(r, list, matrix, pixels);
+        }, py::arg("drawing"), py::arg("palette"), py::arg("matrix"), py::arg("pixels") = 0.7, "A Drawing, exact to `pixels`.")
         .def("draw_plot", &draw_plot, py::arg("records"), py::arg("matrix"), py::arg("first"), py::arg("last"), py::arg("second") = false,
              "Points first to last (exclusive) of linuxcnc.positionlogger.points(), 2 pixels wide.")
         .def("ppm", [](const Raster &r) { return py::bytes(r.ppm()); }, "The picture as a binary PPM file.")
@@ -114,8 +119,8 @@ PYBIND11_MODULE(kerf_raster, m)
             Rgba c = r.pixel(x, y);
             return py::make_tuple(c.r, c.g, c.b);
         });
+    bind_drawing(m);
     m.def("pick", &pick, py::arg("vertices"), py::arg("kinds"), py::arg("palette"), py::arg("matrix"), py::arg("width"),
           py::arg("height"), py::arg("x"), py::arg("y"), py::arg("radius") = 5.0,
           "Vertex that ends the piece nearest to a pixel, or -1.");
-    bind_drawing(m);
 }

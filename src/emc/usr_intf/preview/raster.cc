@@ -50,8 +50,9 @@ bool clip_edge(double p, double q, double &t0, double &t1)
 }
 
 /// Colour of the piece that ends at vertex i.
-Rgba colour_of(const Path &path, const std::vector<Rgba> &palette, size_t i)
+Rgba colour_of(const Path &path, const std::vector<Rgba> &palette, size_t entry)
 {
+    const size_t i = path.vertex(entry);
     if (path.rgba) {
         const uint8_t *c = path.rgba + i * path.stride * sizeof(float);
         return {c[0], c[1], c[2], c[3]};
@@ -119,6 +120,7 @@ void Raster::line(double x0, double y0, double x1, double y1, Rgba colour, int l
     double ax = x0 + t0 * dx, ay = y0 + t0 * dy, bx = x0 + t1 * dx, by = y0 + t1 * dy;
     bool steep = std::fabs(by - ay) > std::fabs(bx - ax);
     int steps = int(std::max(std::fabs(bx - ax), std::fabs(by - ay))) + 1;
+    if (line_width == 1) return thin_line(ax, ay, bx, by, steps, colour);
     double sx = (bx - ax) / steps, sy = (by - ay) / steps;
     int before = (line_width - 1) / 2;
     for (int i = 0; i <= steps; i++) {
@@ -130,14 +132,23 @@ void Raster::line(double x0, double y0, double x1, double y1, Rgba colour, int l
     }
 }
 
+// The ends are within the picture. Sixteen bits of a pixel's fraction: exact enough for MAX_SIZE steps.
+void Raster::thin_line(double x0, double y0, double x1, double y1, int steps, Rgba colour)
+{
+    constexpr double ONE = 65536;
+    int64_t x = int64_t(x0 * ONE), y = int64_t(y0 * ONE);
+    const int64_t sx = int64_t((x1 - x0) * ONE) / steps, sy = int64_t((y1 - y0) * ONE) / steps;
+    for (int i = 0; i <= steps; i++, x += sx, y += sy) blend(int(x >> 16), int(y >> 16), colour);
+}
+
 void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last, int line_width)
 {
     last = std::min(last, path.count);
     if (first >= last) return;
     Window window(w_, h_);
-    Clip from = project(matrix, path.xyz + first * path.stride);
+    Clip from = project(matrix, path.xyz + path.vertex(first) * path.stride);
     for (size_t i = first + 1; i < last; i++) {
-        Clip to = project(matrix, path.xyz + i * path.stride);
+        Clip to = project(matrix, path.xyz + path.vertex(i) * path.stride);
         Rgba colour = colour_of(path, palette, i);
         Clip a = from, b = to;
         if (colour.a == 0 || !clip_near(a, b)) {

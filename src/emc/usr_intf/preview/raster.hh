@@ -23,13 +23,16 @@ using Matrix = std::array<double, 16>;
 
 /// A tool path as runs of vertices. Vertex n ends the piece that begins at n-1; kinds[n] picks its
 /// colour in a palette; alpha 0 draws nothing. `stride`: floats from one vertex to the next (>= 3).
-/// With `rgba` each vertex has its own colour instead, four bytes with the same stride.
+/// With `rgba` each vertex has its own colour instead, four bytes with the same stride. With `index`
+/// the path is the `count` vertices that it lists.
 struct Path {
     const float *xyz = nullptr;
     const uint8_t *kinds = nullptr;
     size_t count = 0;
     size_t stride = 3;
     const uint8_t *rgba = nullptr;
+    const uint32_t *index = nullptr;
+    size_t vertex(size_t i) const { return index ? index[i] : i; }
 };
 
 class Raster {
@@ -51,6 +54,7 @@ public:
 
 private:
     void line(double x0, double y0, double x1, double y1, Rgba colour, int line_width);
+    void thin_line(double x0, double y0, double x1, double y1, int steps, Rgba colour);
     void blend(int x, int y, Rgba colour);
     int w_, h_;
     std::vector<uint8_t> rgb_;
