@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """FP-091: programs whose axes ask for more than the joints can give, near the centres of rotary tables,
 the edge of deltas, the shoulder and the wrist of arms: joints keep their limits of speed and
-acceleration, nothing stops with a following error, every program ends at its end."""
+acceleration, nothing stops with a following error, every program ends at its end. Lines and arcs that
+would take a joint out of its range on the way are refused, the others stay inside."""
 import random
 
 import kerf_motion as km
@@ -68,4 +69,51 @@ program("general arm", "genserkins", "xyzabcuvw", [20.0, -30.0, 60.0, 10.0, 40.0
         dict(x=20.0, y=20.0, z=20.0, a=5.0, u=(-5, 5)), 180.0, 1200.0, 500.0, 5000.0, moves=10, seeds=2)
 program("hexapod", "genhexkins", "xyzabc", [34.0] * 6, dict(x=(-3, 3), y=(-3, 3), z=1.0, a=(-10, 10), b=(-10, 10), c=(-10, 10)),
         15.0, 150.0, 60.0, 1000.0, seed=(0, 0, 30, 0, 0, 0), tolerance=0.005)
+
+
+def ranges(title, kins, axes, start, box, low, high, arcs=False, setp=(), moves=60):
+    """Single moves on a machine whose joints' ranges are narrow; both endings have to occur."""
+    m = Machine(joints=len(start), axes=axes, kins=kins, vel=400.0, acc=20000.0, low=low, high=high, kins_setup=setp,
+                home_params={j: dict(offset=q, home=q) for j, q in enumerate(start)})
+    for letter in axes:
+        m.send(km.SET_AXIS_POSITION_LIMITS, axis=AXES.index(letter), minLimit=-1e5, maxLimit=1e5)
+    m.mode(km.COORD)
+    m.sleep(0.02)
+    rng, ended, refused = random.Random(1), 0, 0
+    for n in range(moves):
+        here = list(m.status()["carte_pos_cmd"])
+        pose = list(here)
+        for letter, r in box.items():
+            pose[AXES.index(letter)] = rng.uniform(*r)
+        arc = arcs and n % 2
+        center = [(here[0] + pose[0]) / 2, (here[1] + pose[1]) / 2, pose[2]]
+        m.send(km.SET_CIRCLE if arc else km.SET_LINE, pos=pose, center=center, normal=[0, 0, 1], vel=300, ini_maxvel=300, acc=5000,
+               ini_maxjerk=1e9, id=n + 1, motion_type=3 if arc else 2, turn=0 if arc else -1)
+        m.sleep(0.002)
+        if m.status()["commandStatus"]:
+            told = m.errors()
+            refused += 1
+            if not any("would exceed joint" in t for t in told) or not m.status()["enabled"]:
+                bad.append(f"{title}: move {n} refused for {told}")
+            m.send(km.ABORT)
+            continue
+        ended += 1
+        while not (m.status()["inpos"] and m.status()["depth"] == 0):
+            m.sleep(0.004)
+            for j, q in enumerate(m.joints_at()):
+                if not m.per(low, j) - 1e-6 <= q <= m.per(high, j) + 1e-6:
+                    bad.append(f"{title}: move {n} takes joint {j} to {q}")
+        if told := m.errors():
+            bad.append(f"{title}: move {n}: {told}")
+        if len(bad) > 5:
+            break
+    if min(ended, refused) < moves // 6:
+        bad.append(f"{title}: {ended} moves ended, {refused} were refused")
+    m.close()
+
+
+ranges("table-table", "xyzac-trt-kins", "xyzac", [10.0, 5.0, 20.0, 0.0, 0.0],
+       dict(x=(-40, 40), y=(-40, 40), z=(10, 30), a=(-60, 60), c=(-200, 200)), [-45, -45, -10, -90, -1e4], [45, 45, 60, 90, 1e4],
+       arcs=True, setp=["setp xyzac-trt-kins.z-rot-point -30"])
+ranges("linear delta", "lineardeltakins", "xyz", [235.0] * 3, dict(x=(-60, 60), y=(-60, 60), z=(-40, 20)), 190.0, 300.0, arcs=True)
 print("\n".join(b[:300] for b in bad[:16]) if bad else "limits hold")
