@@ -1,0 +1,2 @@
+#!/bin/bash
+exec ../../lib/with-display ../../task/lib/machine-test script.py
