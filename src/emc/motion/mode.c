@@ -274,33 +274,33 @@ void phase_mode(struct motion *m)
 
 /* ---- faults ---- */
 
-/* The joint's fault stops the machine; 1: to be told, as the joint had none yet. */
-static int joint_fault(struct motion *m, emcmot_joint_t *jt)
+/* The joint's fault stops the machine; 1: to be told, as the first one of the joint. */
+static int joint_fault(struct motion *m, emcmot_joint_t *jt, int *faults)
 {
-    int fresh = !joint_flag(jt, EMCMOT_JOINT_ERROR_BIT);
     set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 1);
     m->internal->enabling = 0;
-    return fresh;
+    return (*faults)++ == 0;
 }
 
 static void joint_faults(struct motion *m, int j)
 {
     emcmot_joint_t *jt = &m->joint[j];
+    int faults = 0;
     int overridden = m->status->overrideLimitMask >> (2 * j);
     if (!is_active(jt) || !joint_flag(jt, EMCMOT_JOINT_ENABLE_BIT))
         return;
     int high = joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) && !(overridden & 2);
     int low = joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT) && !(overridden & 1);
     /* the text for the operator, then what was measured for the log */
-    if (!get_homing(j) && (high || low) && joint_fault(m, jt)) {
+    if (!get_homing(j) && (high || low) && joint_fault(m, jt, &faults)) {
         report_error("joint %d on limit switch error", j);
         rtapi_print("motion: joint %d: %s limit switch at position %.5f\n", j, high ? "positive" : "negative", jt->pos_fb);
     }
-    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt)) {
+    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt, &faults)) {
         report_error("joint %d amplifier fault", j);
         rtapi_print("motion: joint %d: amplifier fault at position %.5f\n", j, jt->pos_fb);
     }
-    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt)) {
+    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt, &faults)) {
         report_error("joint %d following error", j);
         rtapi_print("motion: joint %d: following error %.5f, limit %.5f at velocity %.5f\n", j, jt->ferror,
                     jt->ferror_limit, jt->vel_cmd);

@@ -2,7 +2,8 @@
 # Covers of the field problems: FP-065 and FP-066 (a jog moves the named joint or axis alone, whatever
 # came before), FP-068 (an override of limits ends with the first jog, for the tripped switch only),
 # FP-069 (a jog back inside is accepted), FP-070 (a position reached by jogging is legal), FP-071
-# (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others).
+# (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others), FP-097
+# (the machine never goes off without a word, also where a joint has shown an error before).
 import os
 import tempfile
 
@@ -327,6 +328,16 @@ eq(m.get("motion.digital-out-03"), False, "queued output with the move")
 m.send(km.SET_OFFSET, tool_offset=[1, 2, 3, 4, 5, 6, 7, 8, 9])
 m.sleep(0.002)
 eq([m.get(f"motion.tooloffset.{a}") for a in "xyzabcuvw"], [1, 2, 3, 4, 5, 6, 7, 8, 9], "tool offset pins")
+m.mode(km.FREE)
+m.send(km.SET_JOINT_POSITION_LIMITS, joint=2, minLimit=-100, maxLimit=m.joints_at()[2] - 1)
+m.sleep(0.01)
+m.errors()
+refused(OK, "Can't jog joint 2 further past max soft limit.", km.JOG_CONT, joint=2, axis=-1, vel=5)
+eq(m.get("joint.2.error"), True, "joint error flag")
+m.set("joint.2.amp-fault-in", 1)
+m.sleep(0.01)
+told("joint 2 amplifier fault")
+eq(m.status()["enabled"], False, "off after a fault beside an error")
 m.close()
 lines = [x[8:].strip() for x in open(log.name) if x.startswith("motion: joint")]
 eq(lines[:2], ["joint 1: negative limit switch at position 60.00000", "joint 2: amplifier fault at position 30.00000"], "log")
