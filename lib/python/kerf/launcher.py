@@ -524,8 +524,7 @@ class Session:
 
     def clean(self, remove_lock=True):
         """Ends everything of this session, also after a crash of any part of it."""
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        ignore_ends()
         clock.leave()
         if self.task_died:
             self.try_run("kerf-safe-stop", "-ini", self.ini_path)
@@ -667,8 +666,42 @@ def find_ini(options, tree):
     return os.path.normpath(full)
 
 
+def ignore_ends():
+    for end in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        signal.signal(end, signal.SIG_IGN)
+
+
 def interrupted(*_):
+    ignore_ends()       # a second one would stop the clean-up
     raise KeyboardInterrupt
+
+
+def on_hangup(handler):
+    """The terminal was closed: an end like any other, unless the user wanted it to go on (nohup)."""
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, handler)
+
+
+class Lossy:
+    """A text stream whose reader may go away: what can't be written is lost, and nothing else happens."""
+
+    def __init__(self, stream):
+        self.stream = stream
+
+    def write(self, text):
+        try:
+            return self.stream.write(text)
+        except OSError:
+            return len(text)
+
+    def flush(self):
+        try:
+            self.stream.flush()
+        except OSError:
+            pass
+
+    def __getattr__(self, name):
+        return getattr(self.stream, name)
 
 
 def session_main(options, ini_path, tree, guard, told):
@@ -678,6 +711,7 @@ def session_main(options, ini_path, tree, guard, told):
         return 1
     signal.signal(signal.SIGTERM, interrupted)
     signal.signal(signal.SIGINT, interrupted)
+    on_hangup(interrupted)
     clock.join("linuxcnc")
     session = Session(options, ini_path, tree)
     status = 0
@@ -703,6 +737,7 @@ def session_main(options, ini_path, tree, guard, told):
 
 def guarded(options, ini_path, tree):
     """Runs the session in a child; cleans up when the child is killed. Returns its status and what died ("": nothing)."""
+    sys.stdout, sys.stderr = Lossy(sys.stdout), Lossy(sys.stderr)
     hear, tell = os.pipe()
     os.environ[SESSION + "_NEW"] = uuid.uuid4().hex
     sys.stdout.flush()
@@ -723,6 +758,7 @@ def guarded(options, ini_path, tree):
         except OSError:
             pass
     signal.signal(signal.SIGTERM, forward)
+    on_hangup(lambda *_: forward(signal.SIGTERM, None))
     signal.signal(signal.SIGINT, lambda *_: None if os.isatty(0) else forward(signal.SIGTERM, None))
     _, how = os.waitpid(child, 0)
     os.close(tell)
