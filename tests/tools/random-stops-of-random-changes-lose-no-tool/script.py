@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-082, FP-084: a changer that answers late, early, twice or not at all, and stops of each kind, reloads of the table and offsets at
+# FP-084: a changer that answers late, early, twice or not at all, and stops of each kind, reloads of the table and offsets at
 # any moment of a change, with 1000 tools. Status, pins, shared data and file agree after each step; every tool
 # stays in exactly one pocket; the tool in the spindle changes only when the changer has said so.
 import os
