@@ -161,6 +161,8 @@ py::dict spindle_dict(const spindle_status_t &s)
     d["orient_state"] = s.orient_state;
     d["orient_fault"] = s.orient_fault;
     d["at_speed"] = s.at_speed;
+    d["spindleRevs"] = s.spindleRevs;
+    d["spindleSpeedIn"] = s.spindleSpeedIn;
     return d;
 }
 
