@@ -25,10 +25,11 @@ MIN_ZOOM, MAX_ZOOM = 0.02, 50
 
 
 class Camera:
-    """Looks at a centre from a distance; lat and lon in degrees."""
+    """Looks at a centre from a distance. lat, lon: degrees about the two vectors; 0 looks down along z, lat -90 along y with z up."""
 
-    def __init__(self, size, lat=0, lon=0):
+    def __init__(self, size, lat=0, lon=0, vectors=None):
         self.size, self.lat, self.lon = size, lat, lon
+        self.vectors = vectors or ((1, 0, 0), (0, 0, 1))
         self.zoom, self.pan_x, self.pan_y = 1.0, 0.0, 0.0
         self.least, self.most = -180, 180
 
@@ -55,9 +56,8 @@ class Camera:
         GL.glLoadIdentity()
         GL.glLightfv(GL.GL_LIGHT0, GL.GL_POSITION, (1, 2, 3, 0))        # goes with the eye
         GL.glTranslated(self.pan_x, self.pan_y, -distance)
-        GL.glRotated(self.lat, 1, 0, 0)
-        GL.glRotated(self.lon, 0, 1, 0)
-        GL.glRotated(-90, 1, 0, 0)          # z of a machine is up
+        GL.glRotated(self.lat, *self.vectors[0])
+        GL.glRotated(self.lon, *self.vectors[1])
 
 
 class Trace:
@@ -99,9 +99,9 @@ class Trace:
 class View:
     """The picture in a frame. Raises RuntimeError where there is no OpenGL."""
 
-    def __init__(self, root, model, tool, work, size, hud, lat, lon):
+    def __init__(self, root, model, tool, work, size, hud, lat, lon, vectors=None):
         self.model, self.tool, self.work, self.hud = model, tool, work, hud
-        self.camera, self.trace = Camera(size, lat, lon), Trace(size)
+        self.camera, self.trace = Camera(size, lat, lon, vectors), Trace(size)
         self.frame = gl.Frame(root, width=600, height=600)
         self.frame.pack(fill="both", expand=True)
         self.frame.open(classic=True)
@@ -177,14 +177,14 @@ def main(model, tool, work, size=10, hud=0, rotation_vectors=None, lat=0, lon=0)
     """Shows a machine until its window is closed, or SIGTERM or SIGINT come.
 
     tool, work: captures; their distance is traced. size: of the machine. hud: a Hud, or anything else for none.
-    rotation_vectors is accepted for scripts that give it.
+    lat, lon: degrees that the view is turned about rotation_vectors (default: x of the screen, z of the machine).
     """
     if not os.environ.get("DISPLAY"):
         wait_without_a_screen()
     try:
         root = tk.Tk(className="vismach")
         root.title(os.path.basename(sys.argv[0]) or "vismach")
-        view = View(root, model, tool, work, size, hud if isinstance(hud, Hud) else Hud(), lat, lon)
+        view = View(root, model, tool, work, size, hud if isinstance(hud, Hud) else Hud(), lat, lon, rotation_vectors)
         component = hal.component("vismach")
     except (tk.TclError, RuntimeError, ImportError) as error:
         sys.exit(f"vismach: {error}")

@@ -154,7 +154,7 @@ def examine(root, name: str) -> None:
             p["millkins"] = True
         model, tip, work = module.build(p)
         if view is None:
-            view = View(root, model, tip, work, 500 if name not in ("hexagui", "rotarydelta") else 40, v.Hud(), 20, 30)
+            view = View(root, model, tip, work, 500 if name not in ("hexagui", "rotarydelta") else 40, v.Hud(), -70, 30)
             root.update()
         view.model, view.tool, view.work = model, tip, work
         view.frame.window.make_current()

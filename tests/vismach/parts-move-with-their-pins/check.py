@@ -63,7 +63,7 @@ class Bench:
         self.root = v.tkinter.Tk()
         self.root.geometry("400x400+0+0")
         self.base = v.Capture()
-        self.view = View(self.root, v.Collection([]), v.Capture(), v.Capture(), 10, v.Hud(), 0, 0)
+        self.view = View(self.root, v.Collection([]), v.Capture(), v.Capture(), 10, v.Hud(), -90, 0)
         self.root.update()
 
     def draw(self, *parts) -> None:
@@ -275,6 +275,18 @@ def trace(b: Bench) -> None:
     check("the oldest points go", (len(view.trace.points) <= MAX_TRACE, round(view.trace.points[-1][0], 2)), (True, round((MAX_TRACE + 9) * .01, 2)))
 
 
+def directions(b: Bench) -> None:
+    """What lat and lon of main() show: 0 looks down along z, x to the right; lat -90 has z up; lon turns about z."""
+    camera = b.view.camera
+    before = camera.lat, camera.lon
+    for lat, lon, place, x, y in ((0, 0, (4, 0, 0), 300, 200), (0, 0, (0, 4, 0), 200, 300), (-90, 0, (0, 0, 4), 200, 300),
+                                  (-90, 0, (4, 0, 0), 300, 200), (0, 90, (4, 0, 0), 200, 300), (-90, 90, (0, -4, 0), 300, 200)):
+        camera.lat, camera.lon = lat, lon
+        b.draw(v.Translate([v.BoxCentered(1, 1, 1)], *place))
+        check(f"{place} at lat {lat}, lon {lon} is seen", max(b.pixel(x, y)) > 60, True)
+    camera.lat, camera.lon = before
+
+
 def mouse(b: Bench) -> None:
     camera, frame = b.view.camera, b.view.frame
 
@@ -360,6 +372,7 @@ if __name__ == "__main__":
             guides(bench)
             texts(bench)
             trace(bench)
+            directions(bench)
             mouse(bench)
             program(scratch)
         finally:
