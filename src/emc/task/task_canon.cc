@@ -755,10 +755,13 @@ void TaskCanon::feed_hold(int on) {
     emit(m);
 }
 
+// The message has a byte for it: numbers beyond stay numbers that no output has.
+static unsigned char output_number(int index) { return static_cast<unsigned char>(index < 0 || index > 255 ? 255 : index); }
+
 void TaskCanon::output_bit(int index, int value, int now) {
     flush();
     EMC_MOTION_SET_DOUT m;
-    m.index = static_cast<unsigned char>(index);
+    m.index = output_number(index);
     m.start = m.end = static_cast<unsigned char>(value);
     m.now = static_cast<unsigned char>(now);
     emit(m);
@@ -767,7 +770,7 @@ void TaskCanon::output_bit(int index, int value, int now) {
 void TaskCanon::output_value(int index, double value, int now) {
     flush();
     EMC_MOTION_SET_AOUT m;
-    m.index = static_cast<unsigned char>(index);
+    m.index = output_number(index);
     m.start = m.end = value;
     m.now = static_cast<unsigned char>(now);
     emit(m);

@@ -38,3 +38,7 @@ c.set_digital_output(2, 1)
 c.set_analog_output(2, -3.25)
 sleep(0.01)
 print(getp("motion.digital-out-02"), getp("motion.analog-out-02"))
+# numbers that no output has: none of the others changes
+for line in ("M64 P4", "M65 P258", "M68 E258 Q9", "M62 P257", "M67 E257 Q9", "G0 X2"):
+    print(line, mdi(line), [t.split(" (")[0] for t in messages()])
+print([getp(f"motion.digital-out-0{i}") for i in range(4)], [getp(f"motion.analog-out-0{i}") for i in range(4)])
