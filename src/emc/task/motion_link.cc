@@ -421,56 +421,45 @@ int MotionLink::spindle_off(int spindle, int wait) {
 
 // ---- moves ----
 
+template <class Move> static void fill_move(emcmot_command_t *c, const EmcPose &to, const Move &m) {
+    c->pos = to;
+    c->vel = m.vel;
+    c->ini_maxvel = m.ini_maxvel;
+    c->ini_maxjerk = m.ini_maxjerk;
+    c->acc = m.acc;
+    c->tag = m.tag;
+}
+
 int MotionLink::linear_move(const EMC_TRAJ_LINEAR_MOVE &m) {
     emcmot_command_t c = command(EMCMOT_SET_LINE);
-    c.pos = m.end;
+    fill_move(&c, m.end, m);
     c.motion_type = m.type;
-    c.vel = m.vel;
-    c.ini_maxvel = m.ini_maxvel;
-    c.ini_maxjerk = m.ini_maxjerk;
-    c.acc = m.acc;
     c.turn = m.indexer_jnum;
-    c.tag = m.tag;
     return send_move(c);
 }
 
 int MotionLink::circular_move(const EMC_TRAJ_CIRCULAR_MOVE &m) {
     emcmot_command_t c = command(EMCMOT_SET_CIRCLE);
-    c.pos = m.end;
+    fill_move(&c, m.end, m);
+    c.motion_type = m.type;
     c.center = m.center;
     c.normal = m.normal;
     c.turn = m.turn;
-    c.motion_type = m.type;
-    c.vel = m.vel;
-    c.ini_maxvel = m.ini_maxvel;
-    c.ini_maxjerk = m.ini_maxjerk;
-    c.acc = m.acc;
-    c.tag = m.tag;
     return send_move(c);
 }
 
 int MotionLink::probe(const EMC_TRAJ_PROBE &m) {
     emcmot_command_t c = command(EMCMOT_PROBE);
-    c.pos = m.pos;
+    fill_move(&c, m.pos, m);
     c.motion_type = m.type;
-    c.vel = m.vel;
-    c.ini_maxvel = m.ini_maxvel;
-    c.ini_maxjerk = m.ini_maxjerk;
-    c.acc = m.acc;
     c.probe_type = m.probe_type;
-    c.tag = m.tag;
     return send_move(c);
 }
 
 int MotionLink::rigid_tap(const EMC_TRAJ_RIGID_TAP &m) {
     emcmot_command_t c = command(EMCMOT_RIGID_TAP);
-    c.pos = m.pos;
-    c.vel = m.vel;
-    c.ini_maxvel = m.ini_maxvel;
-    c.ini_maxjerk = m.ini_maxjerk;
-    c.acc = m.acc;
+    fill_move(&c, m.pos, m);
     c.scale = m.scale;
-    c.tag = m.tag;
     return send_move(c);
 }
 
