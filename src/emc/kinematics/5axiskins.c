@@ -8,7 +8,7 @@
  */
 #include "kins_common.h"
 #include "switchkins.h"
-#include "trtfuncs.h"
+#include "switchkins_util.h"
 
 static struct {
     hal_real_t pivot_length;

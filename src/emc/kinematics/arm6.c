@@ -8,6 +8,7 @@
  */
 #include "arm6.h"
 #include "kins_common.h"
+#include "switchkins_util.h"
 
 #define SINGULAR 1e-6
 
@@ -80,7 +81,7 @@ static KINEMATICS_INVERSE_FLAGS configuration(const struct arm6 *g, const double
     return flags;
 }
 
-int arm6_forward(const struct arm6 *g, const double *joint, EmcPose *world, KINEMATICS_INVERSE_FLAGS *iflags)
+static int arm6_forward(const struct arm6 *g, const double *joint, EmcPose *world, KINEMATICS_INVERSE_FLAGS *iflags)
 {
     PmHomogeneous h;
     PmRpy rpy;
@@ -97,7 +98,8 @@ int arm6_forward(const struct arm6 *g, const double *joint, EmcPose *world, KINE
     return 0;
 }
 
-int arm6_inverse(const struct arm6 *g, const EmcPose *world, double *joint, KINEMATICS_INVERSE_FLAGS iflags,
+/* Returns 0; -1 out of reach, joint unchanged. Joints are those nearest to the present ones (whole turns). */
+static int arm6_inverse(const struct arm6 *g, const EmcPose *world, double *joint, KINEMATICS_INVERSE_FLAGS iflags,
                  KINEMATICS_FORWARD_FLAGS *fflags)
 {
     PmRotationMatrix R;
@@ -163,5 +165,57 @@ int arm6_inverse(const struct arm6 *g, const EmcPose *world, double *joint, KINE
             return -1;
     for (int i = 0; i < 6; i++)
         joint[i] = nearest_turn(th[i] * TO_DEG, joint[i]);
+    return 0;
+}
+
+/* ---- the module ---- */
+
+static struct {
+    hal_real_t length[ARM6_LENGTHS];
+} *pins;
+
+static int setup(const int comp_id, const char *coordinates, kparms *kp)
+{
+    int joint_of[EMCMOT_MAX_AXIS], r = 0;
+    if (switchkins_joints_of_axes(coordinates, kp, joint_of) != 0)
+        return -1;
+    pins = hal_malloc(sizeof(*pins));
+    for (int i = 0; pins && i < ARM6_LENGTHS && arm6_module.lengths[i].name; i++)
+        r |= hal_pin_new_real(comp_id, HAL_IN, &pins->length[i], arm6_module.lengths[i].initial, "%s.%s", kp->halprefix,
+                              arm6_module.lengths[i].name);
+    return pins && r >= 0 ? 0 : -1;
+}
+
+static struct arm6 geometry(void)
+{
+    double v[ARM6_LENGTHS];
+    for (int i = 0; i < ARM6_LENGTHS && arm6_module.lengths[i].name; i++)
+        v[i] = hal_get_real(pins->length[i]);
+    return arm6_module.geometry(v);
+}
+
+static int forward(const double *joint, EmcPose *world, const KINEMATICS_FORWARD_FLAGS *fflags,
+                   KINEMATICS_INVERSE_FLAGS *iflags)
+{
+    struct arm6 g = geometry();
+    (void)fflags;
+    return arm6_forward(&g, joint, world, iflags);
+}
+
+static int inverse(const EmcPose *world, double *joint, const KINEMATICS_INVERSE_FLAGS *iflags,
+                   KINEMATICS_FORWARD_FLAGS *fflags)
+{
+    struct arm6 g = geometry();
+    return arm6_inverse(&g, world, joint, *iflags, fflags);
+}
+
+int switchkinsSetup(kparms *kp, KS *ks0, KS *ks1, KS *ks2, KF *kf0, KF *kf1, KF *kf2, KI *ki0, KI *ki1, KI *ki2)
+{
+    kp->sparm = NULL;
+    kp->kinsname = kp->halprefix = arm6_module.name;
+    kp->required_coordinates = "xyzabc";
+    kp->max_joints = 6;
+    kp->allow_duplicates = 0;
+    switchkins_usual_types(kp, setup, forward, inverse, ks0, ks1, ks2, kf0, kf1, kf2, ki0, ki1, ki2);
     return 0;
 }

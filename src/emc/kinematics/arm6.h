@@ -2,7 +2,8 @@
  *
  * arm6.h - six-joint arms with a spherical wrist: PUMA and its kin.
  *
- * Lengths in machine units, joints in degrees. Context: [servo].
+ * arm6.c holds the kinematics and the module; pumakins.c and three21kins.c say which
+ * lengths their arm has. Lengths in machine units, joints in degrees. Context: [servo].
  */
 #ifndef KERF_ARM6_H
 #define KERF_ARM6_H
@@ -21,9 +22,17 @@ struct arm6 {
 /* fflags */
 #define ARM6_REACH 1u
 
-int arm6_forward(const struct arm6 *g, const double *joint, EmcPose *world, KINEMATICS_INVERSE_FLAGS *iflags);
-/* Returns 0; -1 out of reach, joint unchanged. Joints are those nearest to the present ones (whole turns). */
-int arm6_inverse(const struct arm6 *g, const EmcPose *world, double *joint, KINEMATICS_INVERSE_FLAGS iflags,
-                 KINEMATICS_FORWARD_FLAGS *fflags);
+#define ARM6_LENGTHS 8 /* at most */
+
+/* Supplied by the module: its name and the lengths that are pins of it. */
+struct arm6_module {
+    char *name;
+    struct {
+        const char *name;
+        double initial;
+    } lengths[ARM6_LENGTHS]; /* up to the first without name */
+    struct arm6 (*geometry)(const double *lengths);
+};
+extern const struct arm6_module arm6_module;
 
 #endif

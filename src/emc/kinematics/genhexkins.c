@@ -9,7 +9,7 @@
  */
 #include "kins_common.h"
 #include "switchkins.h"
-#include "trtfuncs.h"
+#include "switchkins_util.h"
 
 #define STRUTS 6
 #define MAX_ITERATIONS 1000

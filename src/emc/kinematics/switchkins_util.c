@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
- * switchkins_util.c - what switchable modules share at load.   In, out: trtfuncs.h   Thread: init
+ * switchkins_util.c - what switchable modules share at load.   In, out: switchkins_util.h   Thread: init
  */
 #include <ctype.h>
 #include <string.h>
 #include "emcmotcfg.h"
 #include "rtapi.h"
-#include "switchkins.h"
-#include "trtfuncs.h"
+#include "switchkins_util.h"
 
 void switchkins_usual_types(const kparms *kp, KS own_setup, KF own_forward, KI own_inverse, KS *ks0, KS *ks1,
                             KS *ks2, KF *kf0, KF *kf1, KF *kf2, KI *ki0, KI *ki1, KI *ki2)

@@ -11,6 +11,7 @@
  *         (conventional-directions 0 and offsets: docs/compatibility.md).
  */
 #include "kins_common.h"
+#include "switchkins_util.h"
 #include "trtfuncs.h"
 
 static struct {

@@ -6,6 +6,7 @@
  */
 #include "rtapi.h"
 #include "switchkins.h"
+#include "switchkins_util.h"
 #include "trtfuncs.h"
 
 static int setup(const int comp_id, const char *coordinates, kparms *kp)
