@@ -11,6 +11,7 @@ done
     cat > own.nml <<- EOF
 	B robotCmd SHMEM localhost 4096 0 0 1 8 2001 TCP=5099 xdr queue confirm_write serial passwd=logins
 	B robotSts SHMEM localhost 16384 0 0 2 8 2002 TCP=5099 xdr passwd=logins
+	B gripper SHMEM localhost 4096 0 0 3 8 2003 TCP=5099 xdr queue confirm_write serial passwd=logins
 	P server default LOCAL localhost RW 1 1.0 1 0
 	P robot default LOCAL localhost RW 0 1.0 0 1
 	P operator default REMOTE localhost RW 0 10.0 0 2

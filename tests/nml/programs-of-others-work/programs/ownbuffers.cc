@@ -7,6 +7,18 @@
 
 #include "rcs.hh"
 
+// A message of their own.
+struct GRIP : RCS_CMD_MSG {
+    double force = 0;
+    char part[20] = "";
+    GRIP() : RCS_CMD_MSG(7001, sizeof(GRIP)) {}
+    template <class V, class X> static void fields(V &visit, X &x) {
+        visit(nml::Field{"force", "", "N"}, x.force);
+        visit(nml::Field{"part", "", "its name"}, x.part);
+    }
+};
+static const nml::MessageSet grips({nml::describe<GRIP>("GRIP")});
+
 static volatile int stop = 0;
 static void end(int) { stop = 1; }
 
@@ -15,7 +27,8 @@ int main(int argc, char **argv) {
         signal(SIGTERM, end);
         NML commands(emcFormat, "robotCmd", "server", "own.nml", 1, 1);
         NML status(emcFormat, "robotSts", "server", "own.nml", 1, 1);
-        if (!commands.valid() || !status.valid()) return 2;
+        NML gripper(grips, "gripper", "server", "own.nml", 1, 1);
+        if (!commands.valid() || !status.valid() || !gripper.valid()) return 2;
         return run_nml_servers(&stop);
     }
     pid_t server = fork();
@@ -53,6 +66,14 @@ int main(int argc, char **argv) {
     printf("status: %d %d", type == EMC_TASK_STAT_TYPE, ((EMC_TASK_STAT *)in.get_address())->readLine);
     printf(", unchanged %d", in.peek());
     printf(", was read %d\n", out.check_if_read());
+    NML hand(grips, "gripper", "robot", "own.nml"), far_hand(grips, "gripper", "operator", "far.nml");
+    far_hand.login("anna", "correct-horse");
+    GRIP grip;
+    grip.force = 12.5;
+    strcpy(grip.part, "a bolt");
+    printf("own message: %d", far_hand.write(&grip));
+    type = hand.read();
+    printf(" %s %g %s\n", grips.name(type), hand.get<GRIP>()->force, hand.get<GRIP>()->part);
     kill(server, SIGTERM);
     int how;
     waitpid(server, &how, 0);
