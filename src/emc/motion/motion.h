@@ -296,6 +296,21 @@ typedef struct spindle_status {
 
 /* ---- status -------------------------------------------------------------- */
 
+/* Why the effective override is not the one that was asked for. */
+enum override_cause {
+    EMCMOT_OVERRIDE_FREE,         /* it is */
+    EMCMOT_OVERRIDE_DISABLED,     /* M49, M50 P0 */
+    EMCMOT_OVERRIDE_PAUSED,
+    EMCMOT_OVERRIDE_HELD,         /* motion.feed-hold */
+    EMCMOT_OVERRIDE_INHIBITED,    /* motion.feed-inhibit */
+    EMCMOT_OVERRIDE_ADAPTIVE,     /* motion.adaptive-feed */
+    EMCMOT_OVERRIDE_SPINDLE,      /* the move follows a spindle's position */
+    EMCMOT_OVERRIDE_MAXIMUM,      /* [DISPLAY]MAX_FEED_OVERRIDE */
+    EMCMOT_OVERRIDE_MACHINE,      /* limits of axes and joints */
+    EMCMOT_OVERRIDE_MAX_VELOCITY, /* the limit of speed that the operator sets */
+    EMCMOT_OVERRIDE_OFFSETS       /* external offsets need the room */
+};
+
 typedef struct emcmot_status {
     unsigned int head; /* written first; head != tail: being written */
     cmd_code_t commandEcho;
@@ -305,6 +320,10 @@ typedef struct emcmot_status {
     double feed_scale, rapid_scale;
     unsigned char enables_new;
     double net_feed_scale;
+    double scale_allowed;    /* by the planner: the highest scale that still makes the executing move faster */
+    int scale_bound;         /* what ends it, EMCMOT_OVERRIDE_* */
+    double override_effective; /* of the feed or rapid override, while a move executes of the one it has */
+    int override_cause;      /* EMCMOT_OVERRIDE_*: why it is not the override that was asked for */
     unsigned char enables_queued;
     motion_state_t motion_state;
     int motionFlag;

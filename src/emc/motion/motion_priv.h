@@ -293,6 +293,8 @@ void offset_share_scale(struct motion *m, const EmcPose *path);
 /* 1: with the path at pose (and the offsets where they can stop) joints get farther out of their limits than they are. */
 int offset_share_leaves(struct motion *m, const EmcPose *pose);
 
+void override_status(struct motion *m); /* override.c */
+
 /* eoffset.c: external offsets */
 int axis_has_no_limits(const struct axis *a);
 int eoffsets_moving(const struct motion *m);

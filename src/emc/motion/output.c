@@ -249,5 +249,6 @@ void phase_status(struct motion *m)
     s->reverse_run = m->tp.reverse_run;
     s->jogging_active = m->jog_was_active;
     s->external_offsets_applied = axis_eoffsets_applied(m, &s->eoffset_pose);
+    override_status(m);
     single_step(m);
 }

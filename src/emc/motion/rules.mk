@@ -3,7 +3,7 @@ PUBLIC_HEADERS += $(addprefix src/emc/motion/,emcmotcfg.h motion_types.h state_t
     motion.h emcmotutil.h homing.h homing.c homing_joint.c homing_priv.h homing_custom.h usr/usrmotintf.h) src/emc/tp/tp_types.h src/emc/tp/tp.h
 
 MOTMOD_SOURCES := $(addprefix src/emc/motion/,motion.c state.c pins.c report.c command.c command_move.c command_spindle.c command_jog.c command_joint.c range.c cycle.c mode.c \
-    position.c axis.c eoffset.c offset_share.c teleop_scale.c jog.c input.c probe.c spindle.c comp.c io.c output.c simple_tp.c cubic.c emcmotutil.c)
+    position.c axis.c eoffset.c offset_share.c teleop_scale.c jog.c input.c probe.c spindle.c comp.c io.c output.c override.c simple_tp.c cubic.c emcmotutil.c)
 $(eval $(call rtmodule,motmod,$(MOTMOD_SOURCES) src/emc/posemath/emcpose.c src/emc/tp/path.c))
 $(eval $(call rtmodule,homemod,$(addprefix src/emc/motion/,homemod.c homing.c homing_joint.c)))
 $(eval $(call rtmodule,limitcheck,src/emc/motion/limitcheck.c))
@@ -33,3 +33,8 @@ EXTRA_TARGETS += $(O)/test/motion-handover
 bench-motion: modules
 	/usr/bin/python3 src/emc/motion/test/phase-bench.py $(CURDIR)
 BENCHES += bench-motion
+
+# Random sequences on the bench machines, at the lowest priority.
+.PHONY: property
+property: all
+	nice -n 19 tests/motion/lib/bench-test tests/motion/lib/property.py $(or $(SEEDS),1-100) $(MACHINES)

@@ -44,6 +44,8 @@ void state_init(struct motion *m, const struct motion_sizes *sizes)
     memset(m->config, 0, sizeof(*m->config));
     memset(m->internal, 0, sizeof(*m->internal));
     s->feed_scale = s->rapid_scale = s->net_feed_scale = 1.0;
+    s->scale_allowed = 1e99; /* a planner that says nothing */
+    s->override_effective = 1.0;
     s->enables_new = s->enables_queued = SS_ENABLED | FS_ENABLED | FH_ENABLED;
     s->motionFlag = EMCMOT_MOTION_INPOS_BIT;
     s->scurve_peak_scale = 1.0;

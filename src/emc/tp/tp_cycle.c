@@ -22,6 +22,8 @@ static void idle_status(struct planner *pl)
     tp_mot.status->current_dir = (PmCartesian){ 0, 0, 0 };
     tp_mot.status->tcqlen = 0;
     tp_mot.status->spindleSync = 0;
+    tp_mot.status->scale_allowed = tp_mot.config->maxFeedScale;
+    tp_mot.status->scale_bound = EMCMOT_OVERRIDE_MAXIMUM;
     pl->canon = 0;
     pl->exec_id = 0;
 }
@@ -93,6 +95,30 @@ static void enter_moves(struct planner *pl)
     tp_mot.status->enables_queued = shown->enables;
 }
 
+/* Up to which override the executing move gets faster. */
+static void scale_allowed(const struct planner *pl, const struct traj_seg *g)
+{
+    const struct traj_drive *d = &pl->tj.drive;
+    double *allowed = &tp_mot.status->scale_allowed;
+    int *bound = &tp_mot.status->scale_bound;
+
+    *allowed = d->max_scale;
+    *bound = EMCMOT_OVERRIDE_MAXIMUM;
+    if (g->follow == TRAJ_SYNC_POSITION || pl->tj.in_mark) {
+        *allowed = 1;
+        *bound = EMCMOT_OVERRIDE_SPINDLE;
+        return;
+    }
+    if (g->feed * *allowed > g->vmax) {
+        *allowed = g->vmax / g->feed;
+        *bound = EMCMOT_OVERRIDE_MACHINE;
+    }
+    if (g->prim.metric != PATH_ABC && g->feed * *allowed > d->vlimit) {
+        *allowed = d->vlimit / g->feed;
+        *bound = EMCMOT_OVERRIDE_MAX_VELOCITY;
+    }
+}
+
 static void moving_status(struct planner *pl, const double before[PATH_AXES])
 {
     struct traj *tj = &pl->tj;
@@ -109,6 +135,7 @@ static void moving_status(struct planner *pl, const double before[PATH_AXES])
     speed = path_group_norm(step, g->prim.metric) / pl->cycle;
     requested = fmin(g->feed * (tj->drive.hold ? 0 : tj->drive.scale), g->vmax);
     if (g->prim.metric != PATH_ABC) requested = fmin(requested, tj->drive.vlimit);
+    scale_allowed(pl, g);
     rate = tj->acc / g->stretch;
     tp_mot.status->current_jerk = (rate - tp_mot.status->current_acc) / pl->cycle;
     tp_mot.status->current_acc = rate;

@@ -122,6 +122,47 @@ class Sequence:
         self.m.send(km.ABORT)
         self.m.enable()
 
+    def fault(self):
+        """An amplifier, the spindle, the enable input or a hard limit stops the machine; it is switched on again."""
+        j = self.rng.randrange(self.m.joints)
+        pin, bad = self.rng.choice([(f"joint.{j}.amp-fault-in", 1), ("spindle.0.amp-fault-in", 1), ("motion.enable", 0)])
+        self.note(f"fault {pin}")
+        self.m.set(pin, bad)
+        self.m.sleep(self.rng.uniform(0.001, 0.02))
+        self.m.set(pin, 1 - bad)
+        self.m.enable()
+
+    def limit(self):
+        """A hard limit trips; sometimes it is overridden and the joint jogged."""
+        j = self.rng.randrange(self.m.joints)
+        pin = f"joint.{j}.{self.rng.choice(['pos', 'neg'])}-lim-sw-in"
+        self.note(f"limit {pin}")
+        self.m.set(pin, 1)
+        self.m.sleep(self.rng.uniform(0.001, 0.1))
+        if self.rng.random() < 0.5:
+            self.m.send(km.OVERRIDE_LIMITS, joint=j)
+            self.m.enable()
+            for _ in range(self.rng.randint(1, 4)):
+                self.jog()
+                self.m.sleep(self.rng.uniform(0, 0.3))
+        self.m.set(pin, 0)
+        self.m.send(km.OVERRIDE_LIMITS, joint=-1)
+        self.m.enable()
+
+    def queue_arcs(self):
+        """Arcs, helices and probe moves; what leaves the limits is refused."""
+        for _ in range(self.rng.randint(1, 4)):
+            self.id += 1
+            end, centre = self.pose(), [self.rng.uniform(-20, 20) for _ in range(3)]
+            self.note("arc")
+            common = dict(pos=end, vel=self.rng.uniform(1, 50), ini_maxvel=self.m.path_vel, acc=self.m.path_acc,
+                          ini_maxjerk=self.m.path_jerk, id=self.id)
+            if self.rng.random() < 0.2:
+                self.m.send(km.PROBE, motion_type=5, probe_type=self.rng.randrange(4), **common)
+            else:
+                self.m.send(km.SET_CIRCLE, center=centre, normal=[0, 0, 1], turn=self.rng.choice([-1, 0, 0, 1]),
+                            motion_type=3, **common)
+
     def probe(self):
         self.m.set("motion.probe-input", 1)
         self.m.sleep(self.rng.uniform(0.001, 0.05))
@@ -188,10 +229,10 @@ class Sequence:
 
 
 WEIGHTS = dict(mode=8, queue_lines=10, term=3, jog=12, jog_abort=4, wheel=5, override=6, hold=4, adaptive=2, pause=4,
-               abort=4, stop_pin=2, inhibit=2, switch_off=2, probe=1, home=1)
+               abort=4, stop_pin=2, inhibit=2, switch_off=2, probe=1, home=1, fault=1, limit=1, queue_arcs=4)
 
 
-JOG_WEIGHTS = {name: weight for name, weight in WEIGHTS.items() if name != "queue_lines"}
+JOG_WEIGHTS = {name: weight for name, weight in WEIGHTS.items() if not name.startswith("queue_")}
 
 
 class Jogs(Sequence):
