@@ -14,7 +14,7 @@
 #include "motion_priv.h"
 
 #define STOP_CYCLES 12      /* jerk T^3 of these: rounding of a stop to whole cycles */
-#define STOP_PLACES 3       /* looked at on the way to a stop */
+#define STOP_ACC_PART 0.5   /* of acc T^2: the same without a limit of jerk */
 #define EDGE 2.0            /* of the way to a stop: must be within reach, too */
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
 
@@ -136,40 +136,55 @@ static void teleop_axis_step(struct motion *m, int n, const struct teleop_scale 
     axis_step_within(p, fmin(lo - er.lo, pr.lo), fmax(hi - er.hi, pr.hi), T);
     pr = axis_reach_of(p, T);
     if (offsets)
-        axis_step_within(e, fmin(fmin(lo - pr.lo, er.lo), 0.0), fmax(fmax(hi - pr.hi, er.hi), 0.0), T);
+        axis_step_within(e, fmin(lo - pr.lo, er.lo), fmax(hi - pr.hi, er.hi), T);
     double sum = p->curr_pos + e->curr_pos;
     if (e->curr_pos != 0.0 && (sum >= hi - TELEOP_EPSILON || sum <= lo + TELEOP_EPSILON))
         m->eoffset_limited = 1;
 }
 
 /* How far (sum over joints) a set of joint positions lies outside the limits of homed joints.
- * A stop with limited jerk is known to some cycles of jerk: where the axis' own limits are those
- * of the joint they see to the rest, elsewhere that much is kept free. */
+ * A stop is known to a part of a cycle's acceleration, with limited jerk to some cycles of jerk: where the axis' own
+ * limits are those of the joint they see to the rest, elsewhere that much is kept free. */
 double joints_outside(const struct motion *m, const double *q)
 {
-    double T = m->traj_period, sum = 0.0, cycles = m->kin_type == KINEMATICS_IDENTITY ? STOP_CYCLES : -STOP_CYCLES;
+    double T = m->traj_period, sum = 0.0;
+    int own = m->kin_type == KINEMATICS_IDENTITY;
     for (int j = 0; j < kin_joints(m); j++) {
         const emcmot_joint_t *jt = &m->joint[j];
         if (!is_active(jt) || !get_homed(j))
             continue;
         if (!isfinite(q[j]))
             return INFINITY;
-        double slack = cycles * fmax(0.0, jt->jerk_limit) * T * T * T;
+        double slack = STOP_CYCLES * fmax(0.0, jt->jerk_limit) * T * T * T;
+        if (!own)
+            slack = -slack - STOP_ACC_PART * jt->acc_limit * T * T;
         sum += fmax(0.0, q[j] - jt->max_pos_limit - slack) + fmax(0.0, jt->min_pos_limit - slack - q[j]);
     }
     return sum;
 }
 
-/* Where the axes are after that part of the way to a stop (with other parts of their limits, if any). */
+/* Seconds until the last axis stands. */
+static double stop_time(const struct motion *m)
+{
+    double time = 0.0, T = m->traj_period;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        time = fmax(time, fmax(simple_tp_stop_time(&m->axis[n].teleop_tp, T), simple_tp_stop_time(&m->axis[n].ext_offset_tp, T)));
+    return time;
+}
+
+/* Where the axes are after that part of the time to a stop (with other parts of their limits, if any); beyond 1: so
+ * much farther. */
 static void on_way_to_stop(const struct motion *m, const struct teleop_scale *scale, double part, EmcPose *way)
 {
+    double T = m->traj_period, time = stop_time(m);
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         struct axis a = m->axis[n];
         if (scale)
             teleop_limits(&a, scale);
         const simple_tp_t *p = &a.teleop_tp, *e = &a.ext_offset_tp;
-        double stop = simple_tp_stop_distance(p, m->traj_period) + simple_tp_stop_distance(e, m->traj_period);
-        *emcPoseAxis(way, n) = p->curr_pos + e->curr_pos + stop * part;
+        double stop = part > 1.0 ? part * (simple_tp_stop_distance(p, T) + simple_tp_stop_distance(e, T))
+                                 : simple_tp_stop_way(p, T, part * time) + simple_tp_stop_way(e, T, part * time);
+        *emcPoseAxis(way, n) = p->curr_pos + e->curr_pos + stop;
     }
 }
 

@@ -4,7 +4,7 @@
  *
  * In:     OFFSET_AV_RATIO of the axes (as their limits for offsets), kinematics, limits of the joints
  * Out:    limits of the joints for the planner of the path; parts (0..1] of the offset planners' limits
- * Thread: servo; at most PLACES * (7 + 9) calls of kinematicsInverse, none while no offset moves
+ * Thread: servo; at most PLACES * (7 + 9) + 2 * (STOP_PLACES + 1) calls of kinematicsInverse, none while no offset moves
  * Method: a joint that offsets of an axis move keeps that axis' ratio of its limits for them; the
  *         path is planned within the rest, less a margin where the Jacobian depends on the place.
  *         While an offset moves, differences of the inverse kinematics give each joint's speed D
@@ -181,13 +181,20 @@ static int farther_out(const struct motion *m, const double *q)
 
 int offset_share_leaves(struct motion *m, const EmcPose *pose)
 {
-    double q[EMCMOT_MAX_JOINTS];
-    EmcPose at = *pose;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
-        const simple_tp_t *e = &m->axis[n].ext_offset_tp;
-        *emcPoseAxis(&at, n) += e->curr_pos + simple_tp_stop_distance(e, m->traj_period);
+    double q[EMCMOT_MAX_JOINTS], T = m->traj_period, time = 0.0;
+    int places = m->kin_type == KINEMATICS_IDENTITY ? 1 : STOP_PLACES;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
+        time = fmax(time, simple_tp_stop_time(&m->axis[n].ext_offset_tp, T));
+    for (int i = places > 1 ? 0 : 1; i <= places; i++) { /* offsets that stop at different times go a bent way */
+        EmcPose at = *pose;
+        for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+            const simple_tp_t *e = &m->axis[n].ext_offset_tp;
+            *emcPoseAxis(&at, n) += e->curr_pos + simple_tp_stop_way(e, T, i * time / places);
+        }
+        if (joints_at(m, &at, q) != 0 || farther_out(m, q))
+            return 1;
     }
-    return joints_at(m, &at, q) != 0 || farther_out(m, q);
+    return 0;
 }
 
 void offset_share_scale(struct motion *m, const EmcPose *path)

@@ -209,3 +209,16 @@ double simple_tp_stop_distance(const simple_tp_t *tp, double period)
     double d = n > 0.0 ? (n * v - 0.5 * dv * n * (n + 1.0)) * period : 0.0;
     return tp->curr_vel < 0.0 ? -d : d;
 }
+
+double simple_tp_stop_time(const simple_tp_t *tp, double period)
+{
+    double v = fabs(tp->curr_vel);
+    return v > 0.0 ? 2.0 * fabs(simple_tp_stop_distance(tp, period)) / v : 0.0;
+}
+
+double simple_tp_stop_way(const simple_tp_t *tp, double period, double t)
+{
+    double all = simple_tp_stop_distance(tp, period), time = simple_tp_stop_time(tp, period);
+    double left = t < time ? 1.0 - t / time : 0.0;
+    return all * (1.0 - left * left);
+}

@@ -42,6 +42,9 @@ void simple_tp_adopt(simple_tp_t *tp, double pos, double vel, double acc);
 
 /* [any] Signed distance (units) from here to rest when stopping now. */
 double simple_tp_stop_distance(const simple_tp_t *tp, double period);
+/* [any] Seconds that this stop takes, and the distance after t of them, as with a constant brake. */
+double simple_tp_stop_time(const simple_tp_t *tp, double period);
+double simple_tp_stop_way(const simple_tp_t *tp, double period, double t);
 
 #ifdef __cplusplus
 }
