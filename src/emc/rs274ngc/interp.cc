@@ -280,10 +280,20 @@ int Interp::synch()
 {
     Setup &s = *this->s;
     take_machine_state(s);
-    // A file that cannot be written is no reason to stop.
-    if (save_parameters(s) != INTERP_OK) return INTERP_OK;
+    // A file that cannot be written is no reason to stop; whoever runs the machine is told.
+    const Fault fault = s.fault;
+    const std::string error = s.error;
+    errno = 0;
+    s.parameter_trouble.clear();
+    if (save_parameters(s) != INTERP_OK) {
+        s.parameter_trouble = s.parameter_file + ": parameters and offsets can not be saved: " + (errno ? strerror(errno) : s.error.c_str());
+        s.fault = fault;
+        s.error = error;
+    }
     return INTERP_OK;
 }
+
+const std::string &Interp::parameter_trouble() const { return s->parameter_trouble; }
 
 // The program is where reading goes on.
 static void end_mdi(Setup &s)

@@ -73,6 +73,8 @@ class Interp
     int reset();
     /// Re-reads what the machine knows: position, tool, feed, modes; saves the parameters.
     int synch();
+    /// Why the parameters could not be saved at the last synch(); empty when they were.
+    const std::string &parameter_trouble() const;
 
     // ---- running --------------------------------------------------------------
     int open(const char *filename);

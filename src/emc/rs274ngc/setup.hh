@@ -293,6 +293,7 @@ struct Setup {
     std::vector<double> parameters; // [1..5601]
     std::string parameter_file;
     bool parameter_file_bad = false; // damaged: never overwritten
+    std::string parameter_trouble;   // why the last save failed; empty: it did not
     std::string parameter_file_text; // as last written, with the file's time and inode
     struct timespec parameter_file_time = {};
     ino_t parameter_file_inode = 0;

@@ -539,6 +539,9 @@ void Task::all_spindles_off() {
 void Task::synch() {
     update_motion();
     interp_->synch();
+    if (told_trouble_ == interp_->parameter_trouble()) return; // once, until it works again
+    told_trouble_ = interp_->parameter_trouble();
+    if (!told_trouble_.empty()) operator_error(told_trouble_.c_str());
 }
 
 // After each line: a change of offsets takes its place among the orders.

@@ -170,6 +170,7 @@ private:
     bool wait_ = false;          // a queue buster: no reading until all is done
     bool synching_ = false;
     state_tag_t running_tag_{};  // of the last move of the program that was made
+    std::string told_trouble_;   // with the parameter file
     OffsetsNow read_offsets_, executed_offsets_; // as read ahead, as in force
     void note_offsets();
     void forget_offsets();
