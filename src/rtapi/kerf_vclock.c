@@ -153,9 +153,10 @@ static bool same(struct owner a, struct owner b)
     return a.pid == b.pid && a.start == b.start;
 }
 
+/* A start of 0: it had ended before anybody looked. */
 static bool alive(struct owner o)
 {
-    return o.pid > 0 && start_of(o.pid) == o.start;
+    return o.pid > 0 && o.start != 0 && start_of(o.pid) == o.start;
 }
 
 /* ---- Places; everything here under the lock ------------------------------ */

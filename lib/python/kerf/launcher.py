@@ -46,6 +46,7 @@ WATCH_MS = 100          # at most between two looks at the processes
 READY_WAIT_S = 10.0     # for task to publish the first settings
 CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
 SESSION = "LINUXCNC_SESSION"
+DISPLAY_PART = "_DISPLAY"     # of the variable that marks the display and its children
 HOST_KEYS = (0x48414C32, 0x90280A48, 0x48484C34)     # HAL, RTAPI, UUID
 PR_SET_PDEATHSIG = 1
 
@@ -110,9 +111,10 @@ def status_of(returncode):
     return 128 - returncode if returncode < 0 else returncode
 
 
-def session_processes(session):
-    """Ids of all other processes that this session started, at any depth; the likely ones come first."""
-    wanted = f"{SESSION}={session}".encode()
+def session_processes(session, part=""):
+    """Ids of all other processes that this session started, at any depth; the likely ones come first.
+    part: only the display and what it started."""
+    wanted = f"{SESSION}{part}={session}".encode()
     me, parent = os.getpid(), os.getppid()
     for pid in sorted((int(e) for e in os.listdir("/proc") if e.isdigit()), key=lambda p: (p < me, p)):
         if pid in (me, parent):
@@ -123,7 +125,7 @@ def session_processes(session):
                     continue
         except OSError:
             continue
-        if state_of(pid) not in "ZX":
+        if lives(pid):
             yield pid
 
 
@@ -135,7 +137,12 @@ def comm_of(pid):
         return ""
 
 
-def end(pids, still_there=lambda pid: os.path.exists(f"/proc/{pid}") and state_of(pid) not in "ZX"):
+def lives(pid):
+    """False also for a process that has ended and that nobody has waited for."""
+    return state_of(pid) not in "ZX"
+
+
+def end(pids, still_there=lives):
     """TERM, then KILL, each with a wait. Returns those that did not go."""
     for sig in (signal.SIGTERM, signal.SIGKILL):
         for pid in pids:
@@ -293,7 +300,7 @@ class Session:
                     owner, old_id = (f.read().split() + ["0", ""])[:2]
             except OSError:
                 continue
-            if owner.isdigit() and old_id and not os.path.exists(f"/proc/{owner}"):
+            if owner.isdigit() and old_id and not lives(owner):
                 print("Cleaning up after a session that ended without cleaning up...")
             elif not self.wants_restart():
                 raise Failure("Not starting new LinuxCNC", 0)
@@ -314,10 +321,10 @@ class Session:
         return done.stdout.strip() == "yes"
 
     def clean_other(self, owner, old_id):
-        if owner and os.path.exists(f"/proc/{owner}"):
+        if owner and lives(owner):
             os.kill(owner, signal.SIGTERM)
             until = time.monotonic() + 5 * CHILD_END_S
-            while os.path.exists(self.lock) and time.monotonic() < until:
+            while os.path.exists(self.lock) and lives(owner) and time.monotonic() < until:
                 time.sleep(0.01)
             if not os.path.exists(self.lock):
                 return
@@ -457,7 +464,7 @@ class Session:
         begun = time.monotonic()
 
         def ready():
-            if not any(name == self.task[:15] and state_of(pid) not in "ZX" for pid, name in self.watched.items()):
+            if not any(name == self.task[:15] and lives(pid) for pid, name in self.watched.items()):
                 raise Failure(f"TASK program {self.task} ended while the machine was started: see its messages above")
             try:
                 return float(self.output("halcmd", "getp", "ini.traj_max_velocity") or 0) != 0
@@ -480,7 +487,7 @@ class Session:
 
     def run_display(self):
         command = self.display_command()
-        self.display = clock.spawn(command, "display", env=self.env)
+        self.display = clock.spawn(command, "display", env=self.env | {SESSION + DISPLAY_PART: self.id})
         clock.suspend()
         ends, descriptors = select.poll(), {}    # a process descriptor is readable when the process has ended
         for pid in [self.display.pid, *self.watched]:
@@ -494,7 +501,7 @@ class Session:
             if status is not None:
                 return status_of(status)
             for pid, name in list(self.watched.items()):
-                if state_of(pid) not in "ZX":
+                if lives(pid):
                     continue
                 if name == "linuxcncsvr":         # only remote clients need it
                     print(f"{name} (process {pid}) died: remote clients are cut off, the machine goes on",
@@ -532,6 +539,8 @@ class Session:
         print("Shutting down and cleaning up LinuxCNC...", flush=True)
         if self.display and self.display.poll() is None:
             end([self.display.pid])
+        elif not self.display:          # of a session that was killed
+            end(list(session_processes(self.id, DISPLAY_PART)))
         shutdown = self.ini.get("HAL", "SHUTDOWN") if self.ini else None
         running = list(session_processes(self.id))
         host = [p for p in running if comm_of(p).startswith("rtapi_app")]
@@ -712,13 +721,13 @@ def session_main(options, ini_path, tree, guard, told):
     signal.signal(signal.SIGTERM, interrupted)
     signal.signal(signal.SIGINT, interrupted)
     on_hangup(interrupted)
-    clock.join("linuxcnc")
     session = Session(options, ini_path, tree)
     status = 0
     try:
         session.check_ini()
         session.read_settings()
-        session.take_lock()
+        session.take_lock()             # before we join: what a killed session left may hold simulated time
+        clock.join("linuxcnc")
         try:
             status = session.start()
         finally:
