@@ -71,7 +71,7 @@ class Radiobutton(tk.Frame):
     """One pin for each choice; one of them is TRUE."""
 
     def __init__(self, master, panel, halpin=None, choices=(), initval=0, orient=None, **options):
-        super().__init__(master)
+        super().__init__(master, bd=2, relief="groove")
         if not choices:
             raise ValueError("choices = [...] is needed")
         name = panel.default(halpin, "radiobutton")
