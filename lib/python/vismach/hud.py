@@ -63,7 +63,8 @@ class Hud:
         if not self.showme or any(hal.get_value(pin) == value for pin, value in self.hiding):
             return []
         on = set().union(*(rule() for rule in self.rules)) if self.rules else set()
-        return [str(s) for s in self.strs] + [text() for text, tags in self.lines if tags is None or tags & on]
+        found = [str(s) for s in self.strs] + [text() for text, tags in self.lines if tags is None or tags & on]
+        return [line for text in found for line in text.split("\n")]
 
     def picture(self, texts):
         """RGBA, as it is drawn."""

@@ -192,11 +192,14 @@ def main(model, tool, work, size=10, hud=0, rotation_vectors=None, lat=0, lon=0)
         sys.exit("vismach: another vismach program is running: only one can")
     component.newpin("plotclear", hal.HAL_BIT, hal.HAL_IN)
     component.ready()
+    ended, was_clear = [], [False]
     for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: root.destroy())
-    was_clear = [False]
+        signal.signal(number, lambda *_: ended.append(number))      # poll() ends: a signal comes in the middle of anything
 
     def poll():
+        if ended:
+            root.destroy()
+            return
         try:
             clear = component["plotclear"]
             if clear and not was_clear[0]:

@@ -231,16 +231,16 @@ def texts(b: Bench) -> None:
     c, hud = b.comp, v.Hud()
     c["x"], c["order"], c["on"] = 12.5, 1, False
     hud.strs.append("first")
-    hud.show("always")
+    hud.show("always\non two lines")
     hud.add_pin("X {:.2f}", "vm.x")
     hud.add_txt("one", 1)
     hud.add_txt("two", [2, 3])
     hud.add_txt("lamp", "lamp")
     hud.show_tags_in_pin("vm.order", 0)
     hud.show_tag_if_same("lamp", "vm.on")
-    check("texts", hud.texts(), ["first", "always", "X 12.50", "one"])
+    check("texts", hud.texts(), ["first", "always", "on two lines", "X 12.50", "one"])
     c["order"], c["on"] = 3, True
-    check("tags", hud.texts(), ["first", "always", "X 12.50", "two", "lamp"])
+    check("tags", hud.texts(), ["first", "always", "on two lines", "X 12.50", "two", "lamp"])
     hud.hide_all("vm.on", True)
     check("hidden", hud.texts(), [])
     c["on"] = False
