@@ -42,7 +42,7 @@ GROUPS = {
     "Spindles and tools": "spindle gearchange spindle_monitor orient carousel boss_plc",
     "Joints and axes": "homemod gantry anglejog eoffset_per_angle moveoff moveoff_gui z_level_compensation",
     "Windows": """halshow halconfig halmeter emccalib tooledit hal_manualtoolchange linuxcnctop debuglevel teach-in mdro tklinuxcnc ngcgui
-        monitor-xhc-hb04 image-to-gcode pyvcp vismach axis-remote mdi""",
+        monitor-xhc-hb04 image-to-gcode pyvcp pyvcp_demo vismach axis-remote mdi""",
     "Threads and streams": "threads sampler streamer scope_rt halscope",
     "Simulation and tests": """sim-torch sim_pin simulate_probe sim_encoder sim_spindle sim_home_switch
         sim_axis_hardware sim_joint sim_parport sphereprobe
