@@ -2,6 +2,7 @@
 import os
 import random
 import sys
+import types
 import traceback
 from tkinter import filedialog
 
@@ -50,7 +51,7 @@ def script(op):
     dialogs.Touchoff.wait = touchoff
     filedialog.askopenfilename = lambda **more: rng.choice(("", sys.argv[-1], "/nowhere/at/all.ngc"))
     filedialog.asksaveasfilename = lambda **more: rng.choice(("", os.path.abspath("saved.ngc"), "/nowhere/saved.ngc"))
-    commands.subprocess.Popen = lambda *args, **more: None
+    commands.subprocess = types.SimpleNamespace(Popen=lambda *args, **more: None) # editors and browsers
     root.tk.eval("proc ::axis::tool_program {args} {}; rename exec ::real_exec; proc exec {args} {}")
     held, log = {}, []
     menus = menu_entries(root)
