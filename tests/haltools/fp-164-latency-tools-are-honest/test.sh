@@ -4,7 +4,7 @@
 # jitter ever is kept. In virtual time: every interval is exact.
 export KERF_CLOCK=virtual HOME=$PWD/home
 mkdir -p home
-run() { echo "# $*"; timeout 50 "$@" 2>&1 | grep -v -e '^Note:' | sed '/^usage: /d; /^  *\[--/d; /no realtime scheduling/d; s/^realtime: .*; governor: [^;]*; isolcpus: .*/realtime: R; governor: G; isolcpus: I/; /governor is/d; /no processor is isolated/d'; echo "=> ${PIPESTATUS[0]}"; }
+run() { echo "# $*"; timeout 50 "$@" 2>&1 | grep -v -e '^Note:' -e '^$' -e '^Waiting for component' | sed '/^usage: /d; /^  *\[--/d; /no realtime scheduling/d; s/^realtime: .*; governor: [^;]*; isolcpus: .*/realtime: R; governor: G; isolcpus: I/; /governor is/d; /no processor is isolated/d'; echo "=> ${PIPESTATUS[0]}"; }
 run latency-histogram --nox --seconds 2 --bbins 1000 --sbins 1000
 run latency-histogram --nox --nobase --seconds 1
 run latency-histogram --nox --base 4999
