@@ -13,6 +13,8 @@ from rsh import *
 for options in (["-p", "0"], ["-p", "65535"], ["-p", "x"], ["-e", "OFF"], ["-e", "a b"], ["-z"]):
     done = subprocess.run(["linuxcncrsh", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     print(options, done.returncode, bool(done.stderr), done.stdout)
+for options in (["-p", "5007x"], ["-s", "x"], ["-s", "-1"]):
+    print(options, subprocess.run(["linuxcncrsh", *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout.strip())
 print("-h", subprocess.run(["linuxcncrsh", "-h"], stdout=subprocess.DEVNULL).returncode)
 
 server = Server("-n", "shop", "-w", "hi", "-e", "open", "-s", "2", "-4", wait=False)

@@ -19,5 +19,5 @@ done
     sed 's/ passwd=logins//' own.nml > far.nml
     ./ownbuffers | sed 's/127.0.0.1:[0-9]*/127.0.0.1/'
 )
-export BUILT=$scratch KERF_CLOCK=virtual:10
+export BUILT=$scratch KERF_CLOCK=virtual:4
 exec ../../task/lib/machine-test script.py HAL.HALUI=halui

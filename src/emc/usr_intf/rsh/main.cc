@@ -31,6 +31,18 @@ static void usage(FILE *to) {
             "                        (default: only programs of this computer are let in); see docs/nml.md\n");
 }
 
+// The number of an option; false with a message when it is none from low to high.
+static bool number_of(const char *what, const char *text, long low, long high, int *value) {
+    char *end;
+    long v = strtol(text, &end, 10);
+    if (*text && !*end && v >= low && v <= high) {
+        *value = static_cast<int>(v);
+        return true;
+    }
+    fprintf(stderr, "linuxcncrsh: %s '%s' must be a number from %ld to %ld\n", what, text, low, high);
+    return false;
+}
+
 int main(int argc, char **argv) {
     rsh::Options o;
     if (const char *home = getenv("HOME")) o.path = std::string(home) + "/nc_files";
@@ -42,11 +54,7 @@ int main(int argc, char **argv) {
         switch (c) {
         case 'h': usage(stdout); return 0;
         case 'p':
-            o.port = atoi(optarg);
-            if (o.port < 1 || o.port > 65534) {
-                fprintf(stderr, "linuxcncrsh: port '%s' must be a number from 1 to 65534\n", optarg);
-                return 1;
-            }
+            if (!number_of("port", optarg, 1, 65534, &o.port)) return 1;
             break;
         case 'n': o.name = optarg; break;
         case 'w': o.connect_password = optarg; break;
@@ -62,7 +70,9 @@ int main(int argc, char **argv) {
                 return 1;
             }
             break;
-        case 's': o.sessions = atoi(optarg); break;
+        case 's':
+            if (!number_of("sessions", optarg, 0, 1000000, &o.sessions)) return 1;
+            break;
         case 'd': o.path = optarg; break;
         case 'q': o.quiet = true; break;
         case '4': o.ipv4 = true; break;
