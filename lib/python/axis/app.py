@@ -74,6 +74,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.widget_signs = {}
         self.loader = program.Loader(self.settings)
         self.estimate = Estimate(ini_path)
+        self.timed = False       # a program ran at the last look
         self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
         self.user = {}
         self.last_state = None

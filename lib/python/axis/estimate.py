@@ -40,6 +40,7 @@ class Times:
         self.numbers, self.lines, self.seconds = [], [], []
         self.total = None
         self.complete = False        # total is the program's end
+        self.reason = ""             # why it is not
 
     def read(self, stream):
         for text in stream:
@@ -50,7 +51,7 @@ class Times:
                 self.seconds.append(float(words[2]))
             elif words and words[0] in ("end", "stopped"):
                 self.complete = words[0] == "end"
-                self.total = float(words[1])
+                self.total, self.reason = float(words[1]), words[2].strip() if len(words) > 2 else ""
 
     def number_at(self, seconds):
         i = max(0, bisect.bisect_right(self.seconds, seconds) - 1)
@@ -186,5 +187,5 @@ class Estimate:
 
 def clock_text(seconds):
     """h:mm:ss, without hours that are none."""
-    s = int(round(seconds))
+    s = int(seconds)
     return f"{s // 3600}:{s // 60 % 60:02d}:{s % 60:02d}" if s >= 3600 else f"{s // 60}:{s % 60:02d}"

@@ -165,6 +165,9 @@ class FollowPart:
         s, e = self.stat, self.estimate
         running = s.task_mode == linuxcnc.MODE_AUTO and s.interp_state != linuxcnc.INTERP_IDLE
         e.follow(clock.now(), Rates.of(s), running, not s.task_paused and s.feedrate > 0, s.motion_line)
+        if self.timed and not running and s.interp_state == linuxcnc.INTERP_IDLE:
+            self.estimate_time()         # the next run begins here, with this tool
+        self.timed = running
         seconds = e.remaining if running else e.total
         text = self.translate("Remaining: %s") if running else self.translate("Run time: %s")
         self.vars.put("run_time", "" if seconds is None else text % clock_text(seconds))

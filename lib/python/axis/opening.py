@@ -117,7 +117,7 @@ class OpeningPart:
             return
         boxed = self.loader.too_large(self.shown_file)
         self.preview.set_program(path, boxed)
-        self.estimate.start(self.shown_file, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()), Rates.of(self.stat))
+        self.estimate_time()
         if quiet:
             return
         if boxed:
@@ -132,6 +132,11 @@ class OpeningPart:
             dialogs.ask(self.root, self.translate("G-Code error in %s") % os.path.basename(self.shown_file),
                         self.translate("Near line %d of %s:\n%s") % (line, self.shown_file, path.error), "error", 0,
                         self.translate("OK"), extra=fault["report"] if fault else None)
+
+    def estimate_time(self):
+        """The run time is found out anew, from where the machine stands."""
+        if self.shown_file:
+            self.estimate.start(self.shown_file, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()), Rates.of(self.stat))
 
     def state_on_disk(self):
         """What tells a change of the opened file, or None when it is gone."""

@@ -12,7 +12,7 @@ $TEST_DIR/corners.ngc 1 1
 $TEST_DIR/corners.ngc 0.3 1"
 "$top/tests/task/lib/machine-test" "$TEST_DIR/display.py"
 PROGRAMS="$TEST_DIR/thread.ngc 1 1" "$top/tests/task/lib/machine-test" "$TEST_DIR/display.py" -machine lathe
-printf 'G21 G90\nG0 X0 Y0 Z0\nF600\no1 repeat [6]\nG1 X10\nG4 P0.5\nG1 X0\no1 endrepeat\nM2\n' > part.ngc
+printf 'G21 G90\nT1 M6\nG43\nG0 X0 Y0 Z0\nF600\no1 repeat [6]\nG1 X10\nG4 P0.5\nG1 X0\no1 endrepeat\nM2\n' > part.ngc
 screen_test mill operator_script.py "$PWD/part.ngc"
 cat machine/transcript
 rm -rf machine home part.ngc screen.log screen.err

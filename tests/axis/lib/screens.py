@@ -37,6 +37,7 @@ def script(op):
     if "note" in show:
         app.notifications.add("info", "Insert tool 3, 6 mm end mill, then press Resume.")
         app.notifications.add("error", "joint 1 on limit switch error")
+    app.estimate.wait()
     op.wait(0.3)
     for _ in range(200):                 # the exact picture is drawn in slices, by real time
         op.wait(0.02)

@@ -181,6 +181,10 @@ int main(int argc, char **argv) {
         fputs("kerf-time: no machine runs\n", stderr);
         return 1;
     }
+    // The machine may run: on paper it rests where it is, with an empty queue.
+    now.motion.traj.queue = now.motion.traj.activeQueue = 0;
+    now.motion.traj.queueFull = false;
+    now.io.tool.pocketPrepped = -1;
     rtapi_set_msg_level(RTAPI_MSG_NONE);
     tool_mmap_user();
     return run(o, ini, now);
