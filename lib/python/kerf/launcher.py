@@ -45,6 +45,7 @@ Options:
 WATCH_MS = 100          # at most between two looks at the processes
 READY_WAIT_S = 10.0     # for task to publish the first settings
 CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
+SAFE_STOP_S = 2.0       # for motion to be ended after task has died
 SESSION = "LINUXCNC_SESSION"
 DISPLAY_PART = "_DISPLAY"     # of the variable that marks the display and its children
 HOST_KEYS = (0x48414C32, 0x90280A48, 0x48484C34)     # HAL, RTAPI, UUID
@@ -533,7 +534,7 @@ class Session:
         """Ends everything of this session, also after a crash of any part of it."""
         ignore_ends()
         clock.leave()
-        if self.task_died:
+        if self.task_died and not self.stopped_safely():
             self.try_run("kerf-safe-stop", "-ini", self.ini_path)
         self.close_splash()
         print("Shutting down and cleaning up LinuxCNC...", flush=True)
@@ -562,6 +563,16 @@ class Session:
                 os.unlink(self.lock)
             except FileNotFoundError:
                 pass
+
+    def stopped_safely(self):
+        """Waits for the process that milltask leaves for its death. False: there is none, or it hangs."""
+        own = [p for p in session_processes(self.id) if comm_of(p) == "kerf-safe-stop"]
+        until = time.monotonic() + SAFE_STOP_S
+        while own and time.monotonic() < until:
+            if all(state_of(p) in "ZX" for p in own):
+                return True
+            time.sleep(0.005)
+        return False
 
     def try_run(self, *command, seconds=5.0, quiet=True):
         """Runs a clean-up step; one that hangs is ended."""

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// safe_stop.cc - `kerf-safe-stop -ini FILE`: what task did at its end when it can not do it any more.
+// safe_stop.cc - `kerf-safe-stop -ini FILE [--watch]`: what task did at its end when it can not do it any more.
+//
+// With --watch it is the process that task starts beside itself, in a session of its own: standard input is a pipe that
+// task holds open. A byte: task ended in order, and so does this. The end of the pipe: task is dead.
 //
 // In:     motion's command block
 // Out:    motion aborted and disabled, spindles and digital outputs off. What task's pins fed falls when HAL removes its
 //         component, at the latest now (hal_init)
-// Thread: [task]; the launcher runs it when task has died, never beside a task that lives
+// Thread: [task]; never beside a task that lives
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 
@@ -39,8 +45,18 @@ bool digital_outputs_off() {
 
 } // namespace
 
+// True when the other end of standard input was closed without a word.
+static bool task_died() {
+    char byte;
+    ssize_t n;
+    do n = read(STDIN_FILENO, &byte, 1);
+    while (n < 0 && errno == EINTR);
+    return n <= 0;
+}
+
 int main(int argc, char **argv) {
     EmcArgs args(argc, argv);
+    if (strcmp(argv[argc - 1], "--watch") == 0 && !task_died()) return 0;
     linuxcnc::IniFile ini;
     int key = 100, spindles = 1;
     if (ini.open(args.ini_file)) {
