@@ -31,6 +31,7 @@ install: all $(INSTALL_HOOKS)
 	$(INST) $(PUBLIC) $(DESTDIR)$(prefix)/include/linuxcnc
 	$(INST) configs/common/*.nml $(DESTDIR)$(SHARE)
 	$(call copy_tree,lib/hallib,$(SHARE)/hallib)
+	$(call copy_tree,share/images,$(SHARE)/images)
 	install -D -m 644 lib/python/kerf/mtconnect/mtconnect-linuxcnc-1.xsd $(DESTDIR)$(SHARE)/mtconnect/mtconnect-linuxcnc-1.xsd
 	$(call copy_tree,nc_files,$(SHARE)/ncfiles)
 	$(call copy_tree,configs,$(DOC)/examples/sample-configs)
