@@ -2,9 +2,8 @@
 # On a display the picture of [DISPLAY]INTRO_GRAPHIC stands in the middle of the screen for INTRO_TIME seconds, or until
 # the machine has ended; a start that fails opens a window with what the programs reported.
 unset KERF_CLOCK
-rm -rf work; mkdir work; trap 'cd ..; rm -rf work' EXIT
+rm -rf work; mkdir work; export HOME=$(mktemp -d); trap 'cd ..; rm -rf work "$HOME"' EXIT
 cd work
-export HOME=$PWD
 /usr/bin/python3 - <<'END'
 import sys
 sys.path.insert(0, "../../../configs/lib")
@@ -40,4 +39,4 @@ echo "and closes"
 END
 timeout 60 ../../../lib/with-display 1024x768 bash fail
 grep -o 'CANNOT FIND FILE FOR:.*' log
-ls linuxcnc_*.txt*  | sed "s,\.$KERF_INSTANCE\$,,"
+ls "$HOME" | grep linuxcnc_ | sed "s,\.$KERF_INSTANCE\$,,"
