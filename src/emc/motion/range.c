@@ -15,8 +15,8 @@
 #define UNCONFIGURED 1e-308    /* an axis whose limits are both below has none */
 #define LINE_PLACES 12         /* of a line where joints bend, and of each turn of an arc */
 #define MAX_PLACES 48
-#define REFINED_PLACES 32      /* more of them where a joint comes near its limit */
-#define REFINED_DEPTH 6
+#define REFINED_PLACES 14      /* more of them where a joint comes near its limit */
+#define REFINED_DEPTH 4
 #define BULGE 1e-6             /* units: less is rounding */
 #define ARC_PLACES 4           /* of a turn, beside the extremes of x, y and z */
 
