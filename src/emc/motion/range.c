@@ -138,9 +138,21 @@ static void look(struct motion *m, const struct way *w, double t, const struct p
     at->reached = kinematics_inverse(m, &pose, at->q) == 0;
 }
 
+/* How far the joints are outside, all together. */
+static double outside(const struct motion *m, const struct place *at)
+{
+    double sum = 0.0;
+    for (int j = 0; at->reached && j < kin_joints(m); j++) {
+        const emcmot_joint_t *jt = &m->joint[j];
+        if (is_active(jt))
+            sum += fmax(0.0, at->q[j] - jt->max_pos_limit) + fmax(0.0, jt->min_pos_limit - at->q[j]);
+    }
+    return sum;
+}
+
 static int is_outside(const struct motion *m, const struct place *at, double allowed)
 {
-    return at->reached && joints_outside(m, at->q) > allowed + BULGE;
+    return outside(m, at) > allowed + BULGE;
 }
 
 /* May a joint leave its range between two places, where it strays from the chord by up to bend? */
@@ -191,7 +203,7 @@ static int way_stays_inside(struct motion *m, const struct way *w, double *bad)
     look(m, w, 0.0, &at[0], &at[1]);
     if (!at[1].reached)
         return 1;
-    double allowed = joints_outside(m, at[1].q);
+    double allowed = outside(m, &at[1]);
     for (int i = 1; i <= w->places; i++) {
         look(m, w, (double)i / w->places, &at[1], &at[2]);
         *bad = at[2].t;
