@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -80,13 +81,19 @@ struct Call {
     bool real(int n, double *v) const { return Tcl_GetDoubleFromObj(nullptr, argv[n], v) == TCL_OK; }
     int need(const std::string &what) const { return fail("need " + what); }
 
-    // Sends and waits as set. A failure is a text, not an error.
+    // Sends and waits as set. What can't be sent, fails or is not done in time is a text, not an error.
     int give(RCS_CMD_MSG &m) const {
-        if (!link.client->send(m)) return result(name() + ": can't " + name().substr(4));
+        static const std::map<std::string, const char *> words = {
+            {"emc_mdi", "error executing command"}, {"emc_run", "can't execute program"}, {"emc_abort", "can't execute program"},
+            {"emc_pause", "can't pause program"}, {"emc_resume", "can't resume program"}, {"emc_step", "can't step program"},
+            {"emc_task_plan_init", "can't init interpreter"}, {"emc_optional_stop", "can't send command"},
+            {"emc_override_limit", "can't send command"}, {"emc_set_tool_offset", "can't set it"}};
+        bool good = link.client->send(m);
         double t = link.timeout_s > 0 ? link.timeout_s : -1;
-        if (link.wait_done) link.client->wait_done(t, 0.001);
-        else link.client->wait_received(t, 0.001);
-        return TCL_OK;
+        if (good) good = link.wait_done ? link.client->wait_done(t, 0.001) == RCS_DONE : link.client->wait_received(t, 0.001);
+        if (good) return TCL_OK;
+        auto it = words.find(name());
+        return result(name() + ": " + (it == words.end() ? "can't " + name().substr(4) : it->second));
     }
     template <class M> int plain() const { M m; return give(m); }
 
@@ -377,7 +384,7 @@ const std::vector<Command> &commands() {
              return c.result(s.jointType == EMC_ANGULAR ? angular_name(s.units) : linear_name(s.units));
          }},
         {"emc_override_limit", CMD {
-             if (c.argc == 1) return c.result(std::string(c.link.stat.motion.joint[0].overrideLimits ? "on" : "off"));
+             if (c.argc == 1) return c.result(static_cast<int>(c.link.stat.motion.joint[0].overrideLimits));
              int v;
              if (c.argc != 2 || !c.whole(1, &v)) return c.need("0 or 1");
              EMC_JOINT_OVERRIDE_LIMITS m;
@@ -470,6 +477,8 @@ const std::vector<Command> &commands() {
                  snprintf(buf, sizeof buf, code % 10 ? "G%.1f " : "G%.0f ", code / 10.0);
                  out += buf;
              }
+             for (int i = 1; i < EMC_ACTIVE_M_CODES; i++)
+                 if (int code = c.link.stat.task.activeMCodes[i]; code != -1) out += "M" + std::to_string(code) + " ";
              snprintf(buf, sizeof buf, "F%.0f S%.0f", c.link.stat.task.activeSettings[1], c.link.stat.task.activeSettings[2]);
              return c.result(out + buf);
          }},
