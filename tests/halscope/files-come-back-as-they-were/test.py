@@ -1,5 +1,6 @@
 """Configuration files and log files, without HAL and without a screen."""
 import csv
+import math
 import os
 from array import array
 
@@ -62,7 +63,11 @@ csvlog.save("t.csv", 1000000, channels, values)
 print(open("t.csv").read())
 log = csvlog.load("t.csv")
 print(log.period, log.names, log.positions, log.scales)
-print("values within the digits of the format", all(abs(a - b) <= 5e-15 for x, y in zip(values, log.values) for a, b in zip(x, y)))
+print("the same values", values == log.values)
+extreme = [array("d", [5e-324, -1.7976931348623157e308, 1e-9 / 3, math.inf, -0.0])]
+csvlog.save("t.csv", 1000, channels[1:2], extreme)
+print("extreme ones, too", csvlog.load("t.csv").values == extreme)
+csvlog.save("t.csv", 1000000, channels, values)
 with open("t.csv", newline="") as f:
     rows = [r for r in csv.reader(f, delimiter=";") if not r[0].startswith("#")]
 print("csv module", rows[0], [float(w) for w in rows[3]])

@@ -10,9 +10,11 @@
 Spreadsheets and numpy.loadtxt(delimiter=";", skiprows=2) read them as well.
 """
 
+import math
 import re
 from array import array
 from dataclasses import dataclass
+from decimal import Decimal
 
 from ..language import _
 from . import settings as st
@@ -34,7 +36,11 @@ class Log:
 
 
 def _value(value, is_bit):
-    return str(int(value != 0)) if is_bit else f"{value:.14f}"
+    """14 places, and as many more as it takes to be the same number when it is read."""
+    if is_bit:
+        return str(int(value != 0))
+    short = f"{value:.14f}"
+    return short if float(short) == value or not math.isfinite(value) else format(Decimal(repr(value)), "f")
 
 
 def text(period, channels, values):
