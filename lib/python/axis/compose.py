@@ -148,15 +148,18 @@ class Composer:
         for place, text, name, box in labels:
             at = self.camera.pixel(place, w, h)
             if at and -50 < at[0] < w + 50 and -50 < at[1] < h + 50:
-                c.labels.append((*self.free_place(at, text), text, self.colour(name), box))
+                c.labels.append((*self.free_place(at, text, w), text, self.colour(name), box))
 
-    def free_place(self, at, text):
-        """The place of a label: a line below or above where another one is there already."""
-        x, y = at
-        width = 0.61 * self.text_px
-        for free in (y, y + self.text_px, y - self.text_px):
-            if not any(abs(x - ox) < width * (len(text) + len(other)) / 2 and abs(free - oy) < self.text_px for ox, oy, other, *_ in self.scene.labels):
-                return x, free
+    def free_place(self, at, text, width):
+        """The place of a label: the nearest one where no other is, within the picture."""
+        letter, line = 0.61 * self.text_px, self.text_px
+        half = letter * (len(text) + 1) / 2
+        for dx, dy in sorted(((dx * half, dy * line / 2) for dx in range(-4, 5) for dy in range(-8, 9)), key=lambda p: (p[0] ** 2 + p[1] ** 2, -p[1])):
+            x, y = at[0] + dx, at[1] + dy
+            if (dx or dy) and not half <= x <= width - half:
+                continue
+            if not any(abs(x - ox) < letter * (len(text) + len(other)) / 2 and abs(y - oy) < line for ox, oy, other, *_ in self.scene.labels):
+                return x, y
         return at
 
     def offset(self):

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 # Draws each scene and compares it with kept/NAME.png.
+import copy
 import os
 import sys
 import tempfile
@@ -18,6 +19,7 @@ from kerf.glpath import Renderer
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent.parent
 SIZE = 360, 270
+TEXT_PX = 11
 SHOWN = dict(show_program=True, show_rapids=True, program_alpha=False, show_live_plot=False, show_tool=True, show_extents=True,
              show_offsets=True, show_machine_limits=True, grid_size=0.0, highlight_line=-1, metric=1, coord_type=1, display_type=0,
              dro_large_font=False, cone_size=0.5, cone_scaling=True, min_tool_diameter=0.0)
@@ -68,7 +70,7 @@ def draw(gl_library, name):
     ini = str(TOP / "configs/sim" / machine / f"{machine}.ini")
     s = settings.read(linuxcnc.ini(ini))
     s.geometry = options.get("geometry", s.geometry)
-    composer = Composer(s, SimpleNamespace(**SHOWN | options))
+    composer = Composer(s, SimpleNamespace(**SHOWN | options), text_px=TEXT_PX)
     composer.stat = stat
     with tempfile.TemporaryDirectory() as folder:
         path = TOP / "nc_files" / program
@@ -83,14 +85,31 @@ def draw(gl_library, name):
     composer.camera.set_view("lathe" if s.lathe else view)
     composer.camera.fit(*composer.shown_box())
     composer.readout_lines, composer.marks = ["     X:   0.000", "     Y:   1.500"], [(True, False), (False, True)]
+    overlaps(name, composer)
     matrix = composer.camera.matrix(*SIZE)
     composer.compose(*SIZE, matrix)
     composer.compose_live(*SIZE, matrix)
     renderer = Renderer(gl_library)
     renderer.resize(*SIZE)
-    renderer.draw_still(composer.scene, matrix, 11, exact=True)
+    renderer.draw_still(composer.scene, matrix, TEXT_PX, exact=True)
     renderer.draw_frame(composer.scene, matrix)
     return Image.fromarray(renderer.pixels())
+
+
+def overlaps(name, composer):
+    """From all sides, also from far away: no label lies on another."""
+    camera, (w, h) = composer.camera, SIZE
+    before = copy.deepcopy(vars(camera))
+    for turn in range(0 if composer.s.lathe else 24):
+        camera.rotate(37, 11 if turn % 2 else -9)
+        camera.size = before["size"] * (1 + turn % 3)
+        composer.compose(w, h, camera.matrix(w, h))
+        placed = [(x, y, text) for x, y, text, *_ in composer.scene.labels]
+        for n, (x, y, text) in enumerate(placed):
+            for ox, oy, other in placed[:n]:
+                if abs(x - ox) < 0.6 * composer.text_px * (len(text) + len(other)) / 2 and abs(y - oy) < composer.text_px - 1:
+                    print(f"{name}, turn {turn}: {text} lies on {other}")
+    vars(camera).update(before)
 
 
 def difference(a, b):
