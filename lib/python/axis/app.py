@@ -11,6 +11,7 @@ import traceback
 
 import linuxcnc
 from kerf import clock, gl, language
+from kerf.failures import Recorder
 from kerf.tktools import ngcgui_tabs
 from kerf.tree import Tree
 
@@ -23,7 +24,6 @@ from .opening import OpeningPart
 from .panels import PanelsPart
 from .pins import PinsPart
 from .prefs import Preferences
-from .report import Recorder
 from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
 from .touchoff import G21_ACTIVE, Checker, brackets, scale_text, unit_text
 from .usercode import UserPart
@@ -44,7 +44,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.root = root
         self.probe = gl.Probe()
         self.ini = linuxcnc.ini(ini_path)
-        self.recorder = Recorder(ini_path, Tree.find().version())
+        self.recorder = Recorder("axis", ini_path, Tree.find().version())
         root.report_callback_exception = self.callback_failed
         self.settings = read(self.ini)
         self.settings.ini_path = ini_path

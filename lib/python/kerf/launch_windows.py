@@ -53,7 +53,7 @@ class Errors:
         px = tkstyle.apply(root).px
         tkstyle.centre(root, px(820), px(520), (px(480), px(300)))
         if died:
-            ttk.Label(root, padding=px(8), wraplength=px(780), justify="left", font="TkHeadingFont", foreground="#c00000",
+            ttk.Label(root, padding=px(8), wraplength=px(780), justify="left", font="TkHeadingFont", style="Bad.TLabel",
                       text=died + "\n" + _("Motion was stopped, the machine was switched off, spindles and coolant too. It must be "
                                            "started and homed again.")).pack(fill="x")
         ttk.Label(root, padding=px(8), wraplength=px(780), justify="left",

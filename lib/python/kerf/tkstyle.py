@@ -19,6 +19,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from tkinter import ttk
 
+from .failures import Recorder
+from .tree import Tree
+
 LIGHT = {"face": "#eceae6", "ink": "#1c1c1a", "field": "#ffffff", "line": "#b8b4ac", "pressed": "#dcd8d0", "select": "#2563a8",
          "faint": "#6a6a66", "off": "#8c8c86", "good": "#18794e", "bad": "#b3261e", "warn": "#ffd75e", "pin": "#1c1c1a",
          "signal": "#1f45c4", "param": "#6e3400", "true": "#ffe000", "false": "#b22222", "on": "#ff5a4d", "chart": "#2563a8", "heading": "#dcd8d0"}
@@ -114,7 +117,9 @@ def _themed(theme, colours, style, letters):
                         indicatorforeground=colours["ink"])
         theme.map(name, background=[("active", face)], indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
     theme.configure("TMenubutton", arrowsize=style.px(5), padding=(style.px(6), style.px(4)))
-    theme.configure("Horizontal.TScale", sliderlength=style.px(30))
+    for name in ("Horizontal.TScale", "Vertical.TScale"):
+        theme.configure(name, sliderlength=style.px(30), background=line, lightcolor=line, darkcolor=line)
+        theme.map(name, background=[("disabled", face), ("active", colours["select"])])
     theme.configure("TEntry", padding=style.px(3))
     theme.map("TEntry", fieldbackground=[("disabled", face), ("readonly", face)])
     theme.configure("TCombobox", padding=style.px(3), arrowsize=style.px(14))
@@ -158,11 +163,16 @@ def open_display(program, class_name):
     except tk.TclError as error:
         sys.exit(f"{program}: {error}")
 
+    recorder = Recorder(program, os.environ.get("INI_FILE_NAME", ""), Tree.find().version())
+    for event in ("<KeyPress>", "<ButtonPress>"):
+        root.bind_all(event, lambda e: recorder.note(e.type.name, e.keysym if e.keysym != "??" else e.num, e.widget), "+")
+
     def trouble(kind, value, place):
         """An interrupt (halcmd unload, Control-C) ends the program; other errors are told and it goes on."""
         if kind is KeyboardInterrupt:
             root.destroy()
-        else:
-            traceback.print_exception(kind, value, place)
+            return
+        text = "".join(traceback.format_exception(kind, value, place))
+        print(f"{text}{program}: report: {recorder.write(text)}", file=sys.stderr)
     root.report_callback_exception = trouble
     return root
