@@ -26,8 +26,9 @@ def check(title, wanted):
 
 
 def do(line):
-    if mdi(line) != RCS_DONE or (told := messages()):
-        bad.append(f"{line}: {told if 'told' in dir() else ''} {messages()}")
+    done, told = mdi(line), messages()
+    if done != RCS_DONE or told:
+        bad.append(f"{line}: {done} {told}")
 
 
 def words(values):
