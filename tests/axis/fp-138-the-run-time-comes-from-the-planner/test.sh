@@ -2,6 +2,8 @@
 # FP-138: the run time that is told comes from the planner's own limits, with dwells, tool changes, overrides:
 # less than 5 % beside what the machine takes (kerf-time alone: 2 %).
 . "$TEST_DIR/../lib/machine.sh"
+kerf-time -ini no.ini 2>&1 | head -1
+kerf-time -ini "$top/configs/sim/mill/mill.ini" "$top/nc_files/star.ngc" 2>&1
 export PROGRAMS="$top/nc_files/star.ngc 1 1
 $top/nc_files/star.ngc 0.4 0.5
 $top/nc_files/circle_diamond_square.ngc 1 1
