@@ -379,8 +379,11 @@ proc ::axis::build_mdi {f} {
     grid $f.commandl -row 3 -column 0 -columnspan 2 -sticky w
     grid $f.command -row 4 -column 0 -sticky ew
     grid $f.go -row 4 -column 1 -padx 4
+    label $f.waitingl -text [_ "Waiting (double click cancels):"] -anchor w
+    listbox $f.waiting -exportselection 0 -takefocus 0 -width 28 -height 3
     grid rowconfigure $f 1 -weight 1
     grid columnconfigure $f 0 -weight 1
+    bind $f.waiting <Double-Button-1> {mdi_cancel %x %y; break}
     bind $f.command <Key-Return> {send_mdi; break}
     bind $f.command <Key-KP_Enter> {send_mdi; break}
     foreach {key command} {Up mdi_up_cmd Down mdi_down_cmd KP_Up mdi_up_cmd KP_Down mdi_down_cmd} {
@@ -391,6 +394,16 @@ proc ::axis::build_mdi {f} {
     bind $f.command <Control-Shift-Key-H> {mdi_history_clip2hist; break}
     bind $f.history <ButtonRelease-1> {mdi_history_butt_1 %x %y}
     bind $f.history <Double-Button-1> {mdi_history_double_butt_1 %x %y; break}
+}
+
+# The MDI lines that wait; without any the list is not there.
+proc ::axis::show_waiting {lines} {
+    set f .pane.top.tabs.fmdi
+    $f.waiting delete 0 end
+    $f.waiting insert end {*}$lines
+    if {[llength $lines] == 0} { grid remove $f.waitingl $f.waiting; return }
+    grid $f.waitingl -row 5 -column 0 -columnspan 2 -sticky w
+    grid $f.waiting -row 6 -column 0 -columnspan 2 -sticky ew
 }
 
 # Override slider: percent, with an entry-like label.

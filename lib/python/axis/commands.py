@@ -293,6 +293,12 @@ def make(app):
                 v.mdi_command.set(hist_list.get(index))
                 commands.send_mdi()
 
+        def mdi_cancel(x="0", y="0"):
+            index = app.widgets.mdi_waiting.index(f"@{x},{y}")
+            waiting = app.widget_signs.get("waiting", ())
+            if 0 <= index < len(waiting):
+                c.mdi_cancel(waiting[index][0])
+
         # -- modes -------------------------------------------------------------------------
 
         def ensure_manual(*event):

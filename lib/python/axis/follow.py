@@ -76,6 +76,9 @@ class FollowPart:
         put("tool", tool_text(s, self.settings.lathe, self.translate))
         put("task_state_string", self.translate(STATES.get(s.task_state, STATES[linuxcnc.STATE_OFF])))
         put("control_name", self.translate("Control: %s") % s.control_name if s.control_pid else "")
+        if s.mdi_queue != self.widget_signs.get("waiting", ()):
+            self.widget_signs["waiting"] = s.mdi_queue
+            self.root.tk.call("::axis::show_waiting", tuple(line for _, line in s.mdi_queue))
         self.follow_overrides()
         self.follow_modes()
         self.follow_moved_axis()

@@ -37,7 +37,7 @@ def widget_names():
     names = {
         "help_window": ".keys", "about_window": ".about", "text": ".pane.bottom.t.text", "preview_frame": ".pane.top.right.fpreview",
         "numbers_text": ".pane.top.right.fnumbers.text", "tabs": ".pane.top.tabs", "right": ".pane.top.right",
-        "mdi_history": f"{mdi}.history", "mdi_command": f"{mdi}.command", "code_text": ".pane.top.gcodes", "axes": f"{manual}.axes",
+        "mdi_history": f"{mdi}.history", "mdi_command": f"{mdi}.command", "mdi_waiting": f"{mdi}.waiting", "code_text": ".pane.top.gcodes", "axes": f"{manual}.axes",
         "joints": f"{manual}.joints", "jogincr": f"{manual}.jogf.jog.jogincr", "override": f"{manual}.jogf.override",
         "ajogspeed": ".pane.top.ajogspeed", "coolant": f"{manual}.coolant", "flood": f"{manual}.flood", "mist": f"{manual}.mist",
         "brake": f"{manual}.spindlef.brake", "spindlel": f"{manual}.spindlel", "spindlef": f"{manual}.spindlef",

@@ -18,6 +18,7 @@ def script(op):
     programs(op, here)
     loading(op, here)
     touching_off(op)
+    waiting_lines(op)
     reports(op)
 
 
@@ -146,6 +147,23 @@ def programs(op, here):
     op.idle()
     clock_wait(op)
     print("FP-134: back:", tuple(app.preview.drawings[0].extents[0]) == before)
+
+
+def waiting_lines(op):
+    box = str(op.app.widgets.mdi_waiting)
+    op.key("F5")
+    for line in ("G4 P0.5", "M66 P0 L3 Q1", "G0 X5", "G0 X7", "G0 X6"):
+        op.type(line)
+    op.wait(0.2)
+    print("FP-127: waiting:", op.root.tk.splitlist(op.root.tk.call(box, "get", 0, "end")), "shown:", op.root.tk.call("winfo", "ismapped", box))
+    x, y, _, height = op.root.tk.splitlist(op.root.tk.call(box, "bbox", 1))
+    for event in ("<ButtonPress-1>", "<ButtonRelease-1>") * 2:
+        op.root.tk.call("event", "generate", box, event, "-x", int(x) + 2, "-y", int(y) + int(height) // 2)
+    op.wait(0.2)
+    print("FP-127: the second one cancelled:", op.root.tk.splitlist(op.root.tk.call(box, "get", 0, "end")))
+    op.idle()
+    op.wait(0.2)
+    print("FP-127: done:", op.position(0), op.messages(), "shown:", op.root.tk.call("winfo", "ismapped", box))
 
 
 def clock_wait(op):

@@ -41,7 +41,7 @@ def sizes():
 
 on()
 children = [clock.spawn(["/usr/bin/python3", "-c", CLIENT], f"client{n}", priority=600) for n in range(3)]
-program("o1 while [1]\nG10 L2 P1 X#<_coord_system>\nT1 M6\nT2 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0\n(DEBUG, #5420)\no1 endwhile\nM2\n")
+program("o1 while [1]\nG10 L2 P1 X0.25\nT1 M6\nT2 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0\n(DEBUG, #5420)\no1 endwhile\nM2\n")
 c.auto(AUTO_RUN, 0)
 sleep(20)
 looks = [sizes()]
