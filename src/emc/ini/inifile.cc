@@ -213,6 +213,7 @@ std::optional<std::string> read_whole(const std::string &path)
                text.size());
         return std::nullopt;
     }
+    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3); // byte order mark of some editors
     return text;
 }
 

@@ -27,6 +27,7 @@ X=1\n
 #INCLUDED\n
 #INCLUDE nowhere.ini\n
 [A]\nX=\\q\n[A] tail\nY=2\n
+\357\273\277[A]\nX=1\n
 CASES
 rm -f bad.ini
 inivalue -e missing.ini 2>&1
