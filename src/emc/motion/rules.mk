@@ -37,4 +37,4 @@ BENCHES += bench-motion
 # Random sequences on the bench machines, at the lowest priority.
 .PHONY: property
 property: all
-	nice -n 19 tests/motion/lib/bench-test tests/motion/lib/property.py $(or $(SEEDS),1-100) $(MACHINES)
+	. scripts/rip-environment; nice -n 19 tests/motion/lib/bench-test tests/motion/lib/property.py $(or $(SEEDS),1-100) $(MACHINES)
