@@ -4,7 +4,7 @@
  *
  * In:     points of the move, axis and joint limits, kinematics    Out: messages
  * Thread: servo; a move is looked at in at most MAX_PLACES + REFINED_PLACES + 2 places,
- *         an arc beside that in 2 * (6 + ARC_PLACES)
+ *         an arc beside that in at most 4 * (6 + ARC_PLACES)
  */
 #include <float.h>
 #include <math.h>
@@ -19,6 +19,7 @@
 #define REFINED_DEPTH 4
 #define BULGE 1e-6             /* units: less is rounding */
 #define ARC_PLACES 4           /* of a turn, beside the extremes of x, y and z */
+#define SPIRAL_STEPS 6         /* of the search for an extreme of a spiral */
 
 int in_range(struct motion *m, const EmcPose *pos, int id, const char *kind)
 {
@@ -78,27 +79,37 @@ static int arc_point_in_range(struct motion *m, const struct path_prim *arc, dou
     return in_range(m, &pose, id, "Circular");
 }
 
+/* The angle near `angle` at which coordinate i of a helix or spiral turns round; side: 1 at its greatest, -1 at its least.
+ * There the slope by the angle is 0: amplitude ((spiral / A) cos - r sin) + helix / A, from where a circle turns round. */
+static double turning_angle(const struct path_prim *arc, int i, double angle, int side)
+{
+    double amplitude = hypot(arc->ex[i], arc->ey[i]), phi = 0.0;
+    for (int n = 0; amplitude > 0.0 && n < SPIRAL_STEPS; n++) {
+        double r = arc->radius + arc->spiral * fmax(0.0, fmin(angle + phi, arc->angle)) / arc->angle;
+        double slope = (arc->spiral * cos(phi) + side * arc->helix[i] / amplitude) / arc->angle;
+        phi = r > 0.0 ? asin(fmax(-1.0, fmin(slope / r, 1.0))) : 0.0;
+    }
+    return angle + phi;
+}
+
 /* The first turn and the last, which are the outermost of a helix or spiral. */
 static int arc_bulges_in_range(struct motion *m, const struct path_prim *arc, int id)
 {
-    double turn = 2.0 * PM_PI, angle[2 * 3 + ARC_PLACES];
-    int n = 0;
-    for (int i = 0; i < 3; i++) {
-        double at = atan2(arc->ey[i], arc->ex[i]);
-        angle[n++] = at < 0.0 ? at + turn : at;
-        angle[n++] = at + 0.5 * turn < turn ? at + 0.5 * turn : at - 0.5 * turn;
-    }
-    for (int i = 0; i < ARC_PLACES; i++)
-        angle[n++] = turn * (i + 0.5) / ARC_PLACES;
-    double last = turn * floor(arc->angle / turn);
-    for (int i = 0; i < n; i++) {
-        if (angle[i] < 0.0)
-            angle[i] += turn;
-        if (angle[i] < arc->angle && !arc_point_in_range(m, arc, angle[i] / arc->angle, id))
-            return 0;
-        double late = angle[i] + (angle[i] + last < arc->angle ? last : last - turn);
-        if (late > turn && !arc_point_in_range(m, arc, late / arc->angle, id))
-            return 0;
+    double turn = 2.0 * PM_PI, last = floor(arc->angle / turn);
+    const double turns[] = {0.0, 1.0, last - 1.0, last, last + 1.0}; /* angles begin between -pi and pi */
+    for (int n = 0; n < 6 + ARC_PLACES; n++) {
+        int side = n < 3 ? 1 : -1, axis = n < 6 ? n % 3 : -1;
+        double angle = axis < 0 ? turn * (n - 6 + 0.5) / ARC_PLACES
+                                : atan2(side * arc->ey[axis], side * arc->ex[axis]);
+        for (unsigned k = 0; k < sizeof turns / sizeof *turns; k++) {
+            double at = angle + turns[k] * turn;
+            if (k >= 2 && turns[k] < 2.0)
+                continue; /* looked at already */
+            if (axis >= 0)
+                at = turning_angle(arc, axis, at, side);
+            if (at > 0.0 && at < arc->angle && !arc_point_in_range(m, arc, at / arc->angle, id))
+                return 0;
+        }
     }
     return 1;
 }

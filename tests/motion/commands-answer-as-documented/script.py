@@ -158,6 +158,13 @@ for normal, line in ((1, 4), (-1, 5)):
             "Circular move on line 4 would exceed joint 0's positive limit max:[100.000000]") if beyond else ()))
 m.rest()
 eq([round(x, 6) for x in m.joints_at()], [90, 60, 30], "the arc that stays inside")
+m.line(60, 30 - 24.9, 30)
+m.rest()
+# a spiral is farthest out where its growth ends its way inward: 99.9 straight beside the centre, 100.96 later
+m.send(km.SET_CIRCLE, pos=[60 + 49.9 * 0.5, 30 + 49.9 * 0.75 ** 0.5, 30], center=[60, 30, 30], normal=[0, 0, 1], id=6, vel=20,
+       ini_maxvel=20, acc=500, ini_maxjerk=5000, motion_type=3, turn=0)
+eq(m.status()["commandStatus"], INVALID_PARAMS, "spiral beyond a limit")
+told("Circular move on line 6 would exceed X's positive limit", "Circular move on line 6 would exceed joint 0's positive limit max:[100.000000]")
 
 # ---- faults; joint, value and limit are in the log
 m.mode(km.FREE)
@@ -340,6 +347,6 @@ told("joint 2 amplifier fault")
 eq(m.status()["enabled"], False, "off after a fault beside an error")
 m.close()
 lines = [x[8:].strip() for x in open(log.name) if x.startswith("motion: joint")]
-eq(lines[:2], ["joint 1: negative limit switch at position 60.00000", "joint 2: amplifier fault at position 30.00000"], "log")
+eq(lines[:2], ["joint 1: negative limit switch at position 5.10000", "joint 2: amplifier fault at position 30.00000"], "log")
 eq(lines[2].startswith("joint 0: following error 0.50000, limit 0.00000 at velocity"), True, f"log {lines[2]}")
 print(f"{checks} checks")
