@@ -4,7 +4,7 @@
  *
  * In:     OFFSET_AV_RATIO of the axes (as their limits for offsets), kinematics, limits of the joints
  * Out:    limits of the joints for the planner of the path; parts (0..1] of the offset planners' limits
- * Thread: servo; at most PLACES * (7 + 9) + 2 * (STOP_PLACES + 1) calls of kinematicsInverse, none while no offset moves
+ * Thread: servo; at most PLACES * (7 + 18) + 2 * (STOP_PLACES + 10) calls of kinematicsInverse, none while no offset moves
  * Method: a joint that offsets of an axis move keeps that axis' ratio of its limits for them; the
  *         path is planned within the rest, less a margin where the Jacobian depends on the place.
  *         While an offset moves, differences of the inverse kinematics give each joint's speed D
@@ -112,23 +112,28 @@ static int joints_after(struct motion *m, const struct moving *w, double a, doub
 
 static double part_of(double limit, double load) { return load > limit * (1.0 + 1e-9) ? limit / load : 1.0; }
 
-/* The axes' own parts: of each joint's share an axis has as much as any other that moves it. */
+/* The axes' own parts: of each joint's share an axis has as much as any other that moves it. -1: an axis comes to the end
+ * of the kinematics' reach, where joints move without bound for a step. */
 static int straight_parts(struct motion *m, struct moving *w, const double *q)
 {
-    double moved[EMCMOT_MAX_JOINTS];
+    double ahead[EMCMOT_MAX_JOINTS], behind[EMCMOT_MAX_JOINTS];
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         const struct axis *a = &m->axis[n];
         struct teleop_scale *s = &w->part[n];
         EmcPose pose = w->at;
         if (w->offset[n] == 0.0)
             continue;
-        *emcPoseAxis(&pose, n) += STEP_UNITS;
-        if (joints_at(m, &pose, moved) != 0)
+        double step = copysign(STEP_UNITS, w->offset[n]);
+        *emcPoseAxis(&pose, n) += step;
+        if (joints_at(m, &pose, ahead) != 0)
             return -1;
+        *emcPoseAxis(&pose, n) -= 2.0 * step;
+        int both = joints_at(m, &pose, behind) == 0;
         for (int j = 0; j < kin_joints(m); j++) {
             struct joint_limits lim = joint_motion_limits(&m->joint[j]);
-            double slope = fabs(moved[j] - q[j]) / STEP_UNITS, share = m->offset_share[j];
-            if (slope * STEP_UNITS <= MOVES)
+            double moved = fmax(fabs(ahead[j] - q[j]), both ? fabs(behind[j] - q[j]) : 0.0);
+            double slope = moved / STEP_UNITS, share = m->offset_share[j];
+            if (moved <= MOVES)
                 continue;
             share /= m->offset_axes[j] > 0 ? m->offset_axes[j] : 1;
             double bend = m->kin_type == KINEMATICS_IDENTITY ? 1.0 : HALF;
@@ -179,14 +184,32 @@ static int farther_out(const struct motion *m, const double *q)
     return joints_outside(m, q) > joints_outside(m, now) + MOVES;
 }
 
+/* 1: a step farther along an offset's way from there is out of the kinematics' reach. */
+static int at_end_of_reach(struct motion *m, const EmcPose *there)
+{
+    double q[EMCMOT_MAX_JOINTS];
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        const simple_tp_t *e = &m->axis[n].ext_offset_tp;
+        double way = e->curr_vel != 0.0 ? e->curr_vel : e->enable ? e->pos_cmd - e->curr_pos : 0.0;
+        EmcPose at = *there;
+        if (!axis_takes_offsets(&m->axis[n]) || fabs(way) < MOVES)
+            continue;
+        *emcPoseAxis(&at, n) += copysign(STEP_UNITS, way);
+        if (joints_at(m, &at, q) != 0)
+            return 1;
+    }
+    return 0;
+}
+
 int offset_share_leaves(struct motion *m, const EmcPose *pose)
 {
+    EmcPose at = *pose;
     double q[EMCMOT_MAX_JOINTS], T = m->traj_period, time = 0.0;
     int places = m->kin_type == KINEMATICS_IDENTITY ? 1 : STOP_PLACES;
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
         time = fmax(time, simple_tp_stop_time(&m->axis[n].ext_offset_tp, T));
     for (int i = places > 1 ? 0 : 1; i <= places; i++) { /* offsets that stop at different times go a bent way */
-        EmcPose at = *pose;
+        at = *pose;
         for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
             const simple_tp_t *e = &m->axis[n].ext_offset_tp;
             *emcPoseAxis(&at, n) += e->curr_pos + simple_tp_stop_way(e, T, i * time / places);
@@ -194,7 +217,7 @@ int offset_share_leaves(struct motion *m, const EmcPose *pose)
         if (joints_at(m, &at, q) != 0 || farther_out(m, q))
             return 1;
     }
-    return 0;
+    return places > 1 && at_end_of_reach(m, &at);
 }
 
 void offset_share_scale(struct motion *m, const EmcPose *path)
