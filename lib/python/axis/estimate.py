@@ -32,6 +32,14 @@ class Rates:
         return ["-f", str(self.feed or 1), "-r", str(self.rapid or 1), "-s", str(self.spindle or 1), "-v", str(max(self.max_velocity, 1e-6))]
 
 
+def between(xs, ys, x):
+    """y at x by straight lines between the points; before and behind them the nearest one's. xs do not fall."""
+    i = bisect.bisect_right(xs, x) - 1
+    if i < 0 or i + 1 == len(xs):
+        return ys[max(0, i)] if ys else 0.0
+    return ys[i] + (x - xs[i]) / (xs[i + 1] - xs[i]) * (ys[i + 1] - ys[i])
+
+
 class Times:
     """When moves begin. numbers, lines, seconds: parallel lists in order; total: None while not known."""
 
@@ -54,22 +62,10 @@ class Times:
                 self.total, self.reason = float(words[1]), words[2].strip() if len(words) > 2 else ""
 
     def number_at(self, seconds):
-        i = max(0, bisect.bisect_right(self.seconds, seconds) - 1)
-        if not self.seconds:
-            return 0.0
-        if i + 1 == len(self.seconds):
-            return self.numbers[i]
-        part = (seconds - self.seconds[i]) / (self.seconds[i + 1] - self.seconds[i])
-        return self.numbers[i] + max(0.0, min(1.0, part)) * (self.numbers[i + 1] - self.numbers[i])
+        return between(self.seconds, self.numbers, seconds)
 
     def seconds_at(self, number):
-        i = max(0, bisect.bisect_right(self.numbers, number) - 1)
-        if not self.numbers:
-            return 0.0
-        if i + 1 == len(self.numbers):
-            return self.seconds[i]
-        part = (number - self.numbers[i]) / (self.numbers[i + 1] - self.numbers[i])
-        return self.seconds[i] + max(0.0, part) * (self.seconds[i + 1] - self.seconds[i])
+        return between(self.numbers, self.seconds, number)
 
     def place(self, line, seconds):
         """(earliest, latest) time at which this line may run, near `seconds`; None: not known."""

@@ -8,21 +8,13 @@ import os
 import tempfile
 
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 OK, UNKNOWN, INVALID_COMMAND, INVALID_PARAMS, BAD_EXEC = range(5)
 log = tempfile.NamedTemporaryFile()
 os.environ["MOTION_BENCH_LOG"] = log.name
 m = Machine(jerk=5000.0, motmod="num_spindles=2 num_dio=4 num_aio=2", home=False, traj_jerk=5000.0)
 m.send(km.SET_NUM_SPINDLES, spindle=2)
-checks = 0
-
-
-def eq(got, wanted, what):
-    global checks
-    checks += 1
-    if got != wanted:
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
 
 
 def told(*texts, what=""):
@@ -349,4 +341,4 @@ m.close()
 lines = [x[8:].strip() for x in open(log.name) if x.startswith("motion: joint")]
 eq(lines[:2], ["joint 1: negative limit switch at position 5.10000", "joint 2: amplifier fault at position 30.00000"], "log")
 eq(lines[2].startswith("joint 0: following error 0.50000, limit 0.00000 at velocity"), True, f"log {lines[2]}")
-print(f"{checks} checks")
+print(f"{eq.checks} checks")

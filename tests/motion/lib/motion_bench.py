@@ -20,6 +20,17 @@ from kerf import clock
 AXES = "xyzabcuvw"
 
 
+def eq(got, wanted, what):
+    """Ends the test when the two differ (numbers: by more than 1e-6 of it); eq.checks counts."""
+    eq.checks += 1
+    same = abs(got - wanted) <= 1e-6 * max(1, abs(wanted)) if isinstance(wanted, float) else got == wanted
+    if not same:
+        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
+
+
+eq.checks = 0
+
+
 class Machine:
     """joints: number; axes: letters of coordinates; limits as keyword arguments, per joint lists allowed."""
 

@@ -7,7 +7,7 @@ import tempfile
 
 import hal
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 PITCH = 1.5  # units per revolution
 MARGIN, LAG = 1.03, 1.2  # axis speed may be so much above pitch times spindle speed: factor, and units/s while that changes
@@ -26,14 +26,6 @@ m = Machine(vel=60.0, acc=600.0, motmod="num_spindles=2", hal_lines=HAL)
 m.send(km.SET_NUM_SPINDLES, spindle=2)
 for n in (0, 1):
     m.send(km.SET_SPINDLE_PARAMS, spindle=n, maxLimit=1e9, minLimit=-1e9, offset=100)
-checks = 0
-
-
-def eq(got, wanted, what):
-    global checks
-    checks += 1
-    if got != wanted:
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
 
 
 def spindle(n, rpm):

@@ -1,14 +1,8 @@
 # PAUSE, RESUME, STEP, REVERSE and FORWARD: rest where they should, the way back is the way that was gone.
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 m = Machine()
-
-
-def eq(got, wanted, what):
-    if got != wanted:
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
-
 
 def at(): return [round(x, 6) for x in m.joints_at()]
 

@@ -2,19 +2,11 @@
 import math
 
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 TRAVERSE, FEED, ARC, TOOLCHANGE, PROBING = 1, 2, 3, 4, 5
 INCH, CIRCLE = 1 << 0, 1 << 24
 m = Machine(motmod="num_misc_error=2")
-checks = 0
-
-
-def eq(got, wanted, what):
-    global checks
-    checks += 1
-    if got != wanted if not isinstance(wanted, float) else abs(got - wanted) > 1e-6 * max(1, abs(wanted)):
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
 
 
 def pins(prefix, **wanted):

@@ -1,17 +1,11 @@
 # Locking indexers: unlock, wait, move, lock, wait; what is refused; what happens without pins or after machine off.
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 LOCKING = 8  # homing flag: the joint is unlocked before it homes
 TABLE = 3
 HAL = ["loadrt timedelay", "addf timedelay.0 servo-thread", "setp timedelay.0.on-delay 0.2", "setp timedelay.0.off-delay 0.3",
        f"net unlock joint.{TABLE}.unlock => timedelay.0.in", f"net unlocked timedelay.0.out => joint.{TABLE}.is-unlocked"]
-
-
-def eq(got, wanted, what):
-    if got != wanted:
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
-
 
 def machine(mask, hal=()):
     m = Machine(joints=4, kins="trivkins coordinates=xyza", axes="xyza", motmod=f"unlock_joints_mask={mask}", hal_lines=hal)

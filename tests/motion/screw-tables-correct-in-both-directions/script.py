@@ -4,18 +4,12 @@ import os
 import tempfile
 
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 POINTS = [(-50, 0.010, -0.020), (-10, 0.004, -0.004), (0, 0.0, -0.010), (40, 0.030, 0.010), (60, -0.010, -0.015)]
 VEL, ACC = 50.0, 500.0
 m = Machine(vel=VEL, acc=ACC)
 files = tempfile.TemporaryDirectory()
-
-
-def eq(got, wanted, what):
-    if got != wanted:
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}")
-
 
 def load(joint, text, kind):
     """Loads a table; what was printed, with the file's name as FILE."""

@@ -1,20 +1,12 @@
 # Outputs of spindles by speed, limits, override, brake, orientation and constant surface speed; feeds that
 # wait for the speed after a start, another speed and a stop, and rapids that do not (FP-023).
 import kerf_motion as km
-from motion_bench import Machine
+from motion_bench import Machine, eq
 
 m = Machine(vel=200.0, acc=5000.0, motmod="num_spindles=3")
 m.send(km.SET_NUM_SPINDLES, spindle=3)
 for n in range(3):
     m.send(km.SET_SPINDLE_PARAMS, spindle=n, maxLimit=6000, minLimit=-5000, min_pos_speed=20, max_neg_speed=-30, offset=100)
-checks = 0
-
-
-def eq(got, wanted, what):
-    global checks
-    checks += 1
-    if got != wanted:
-        raise SystemExit(f"{what}: {got!r}, not {wanted!r}; {m.errors()}")
 
 
 def order(rpm, n=0, wait=0, state=1, css=0.0, offset=0.0):
@@ -191,4 +183,4 @@ m.line(40, 0, 0, vel=200)
 m.rest()
 eq(round(m.get("joint.0.pos-cmd"), 9), 40.0, "after an abort nothing waits")
 m.close()
-print(f"{checks} checks")
+print(f"{eq.checks} checks")
