@@ -22,3 +22,10 @@ BENCHES += bench-clients bench-preview
 bench-soak: all
 	bash -c '. scripts/rip-environment && cd tests/small-tools/fp-137-programs-that-run-long-keep-their-size && \
 	    SOAK_HOURS=$(or $(SOAK_HOURS),24) MACHINE_TEST_S=36000 KERF_INSTANCE=soak bash test.sh'
+
+# The screen with OpenGL and its machine for HOURS of virtual time, memory of every process by the way; ends with status 1 when one grows.
+.PHONY: bench-axis-soak
+bench-axis-soak: all
+	rm -f $(O)/axis-soak.txt
+	SOAK_HOURS=$(or $(HOURS),10) SOAK_REPORT=$(abspath $(O))/axis-soak.txt KERF_INSTANCE=axissoak scripts/runtests -p --timeout 36000 tests/axis/memory-does-not-grow; \
+	    status=$$?; cat $(O)/axis-soak.txt; exit $$status

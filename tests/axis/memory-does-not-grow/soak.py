@@ -1,21 +1,25 @@
 #!/usr/bin/python3
 import os
-import sys
 
 import linuxcnc
 import operator_lib as lib
+from kerf import clock
+from process_sizes import sizes
 
 HOURS = float(os.environ.get("SOAK_HOURS", "0.05"))
+LOOKS = 20
 KEYS = ("v", "at", "numbersign", "exclam", "F4", "5", "0", "F3", "F5", "F3")
+LIMIT_KB = 3000              # of growth in the second half
 
 
-def memory_kb():
-    with open("/proc/self/status") as f:
-        return next(int(line.split()[1]) for line in f if line.startswith("VmRSS"))
+def report(hour, found):
+    with open(os.environ.get("SOAK_REPORT", "/dev/stderr"), "a") as f:
+        print(f"{hour:6.2f} h:", *(f"{name} {kb} kB {files} files;" for name, (kb, files) in sorted(found.items())), file=f)
 
 
 def script(op):
     out = open("transcript", "w", buffering=1)
+    print("drawn with:", op.app.preview.picture.kind, file=out)
     lib.CYCLE_S = 0.5
     op.power_on()
     op.home()
@@ -23,16 +27,25 @@ def script(op):
     op.key("r")
     op.wait(5)
     print("runs:", op.stat.interp_state != linuxcnc.INTERP_IDLE, file=out)
-    samples = []
-    for turn in range(20):
-        op.wait(HOURS * 3600 / 20)
-        op.key(KEYS[turn % len(KEYS)])
+    samples, began = [], clock.now()
+    for turn in range(LOOKS):
+        for _ in range(2 if HOURS < 1 else 20):
+            op.wait(HOURS * 3600 / LOOKS / (2 if HOURS < 1 else 20))
+            op.key(KEYS[turn % len(KEYS)])
         op.app.notifications.clear()
-        samples.append(memory_kb())
+        samples.append(sizes())
+        if HOURS >= 1:
+            report((clock.now() - began) / 3600, samples[-1])
     print("still runs:", op.stat.interp_state != linuxcnc.INTERP_IDLE, file=out)
-    growth = max(samples[-3:]) - max(samples[8:11])
-    print("growth in the second half below 3 MB:", True if growth < 3000 else samples, file=out)
-    print("axis soak", HOURS, "hours, kB:", samples, file=sys.stderr)
+    grown = {}
+    for name in samples[-1]:
+        kb = [s[name][0] for s in samples if name in s]
+        middle = samples[LOOKS // 2].get(name)
+        if middle and (max(kb[-3:]) - max(kb[8:11]) > LIMIT_KB or samples[-1][name][1] > middle[1] + 2):
+            grown[name] = [s.get(name) for s in samples]
+    if len(samples[-1]) > len(samples[LOOKS // 2]) + 2:
+        grown["processes"] = [len(s) for s in samples]
+    print("processes watched, the X server among them:", len(samples[-1]) >= 6 and any(name.startswith("Xvfb") for name in samples[-1]), "grown in the second half:", grown, file=out)
 
 
 lib.run(script)

@@ -1,5 +1,6 @@
 #!/bin/bash
-# FP-137: hours of running, screen and all: memory stays flat. SOAK_HOURS=10 for the long one (about an hour of real time).
+# FP-137: hours of running, screen with OpenGL and all: the memory of every process stays flat.
+# SOAK_HOURS=10 for the long one (`make bench-axis-soak`, about an hour of real time, which reports to SOAK_REPORT as it goes).
 . "$TEST_DIR/../lib/machine.sh"
 cat > part.ngc <<'NGC'
 G21 G90 F3000

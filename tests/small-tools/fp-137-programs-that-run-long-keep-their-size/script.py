@@ -5,8 +5,8 @@ import os
 import re
 
 from mill import *
+from process_sizes import sizes
 
-SESSION = [e for e in Path("/proc/self/environ").read_bytes().split(b"\0") if e.startswith(b"LINUXCNC_SESSION=")][0]
 ROUNDS = max(12, round(float(os.environ.get("SOAK_HOURS", "0")) * 360))  # of ten seconds
 NAMES = ("milltask", "rtapi_app", "halui", "linuxcncsvr", "client")
 CLIENT = """
@@ -25,32 +25,18 @@ while True:
 """
 
 
-def sizes():
-    """Name -> (kB of private memory, open files); processes of this session."""
-    found = {}
-    for p in Path("/proc").iterdir():
-        try:
-            name = (p / "comm").read_text().strip()
-            if name in NAMES and SESSION in (p / "environ").read_bytes().split(b"\0"):
-                rollup = (p / "smaps_rollup").read_text()
-                found[name + p.name] = sum(int(l.split()[1]) for l in rollup.splitlines() if l.startswith("Private_")), len(os.listdir(p / "fd"))
-        except OSError:
-            pass
-    return found
-
-
 on()
 children = [clock.spawn(["/usr/bin/python3", "-c", CLIENT], f"client{n}", priority=600) for n in range(3)]
 program("o1 while [1]\nG10 L2 P1 X0.25\nT1 M6\nT2 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0\n(DEBUG, #5420)\no1 endwhile\nM2\n")
 c.auto(AUTO_RUN, 0)
 sleep(20)
-looks = [sizes()]
+looks = [sizes(NAMES)]
 for n in range(ROUNDS):
     sleep(10)
     short = clock.spawn(["/usr/bin/python3", "-c", "import linuxcnc; linuxcnc.stat().poll(); linuxcnc.command().debug(0)"], "short", priority=600)
     clock.wait_until(lambda: short.poll() is not None, 60)
     if n % (ROUNDS // 3) == ROUNDS // 3 - 1:
-        looks.append(sizes())
+        looks.append(sizes(NAMES))
 first = looks[0]
 # What leaks grows from look to look; a page touched for the first time does so once.
 grown = {re.sub(r"\d+$", "", n): [l[n] for l in looks] for n in first
