@@ -3,6 +3,7 @@
 // emc_args.cc - see emc_args.hh.
 #include "emc_args.hh"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -55,4 +56,12 @@ uint64_t set_rcs_print(const linuxcnc::IniFile &ini) {
             "RCS_DEBUG_DEST", "EMC")) set_rcs_print_destination(*dest);
     max_rcs_errors_to_print = ini.findIntV("RCS_MAX_ERR", "EMC", -1);
     return debug;
+}
+
+std::string unit_setting(const linuxcnc::IniFile &ini, const char *name) {
+    std::string text = ini.findStringV(name, "DISPLAY", "auto");
+    for (char &c : text) c = static_cast<char>(tolower(static_cast<unsigned char>(c)));
+    for (const char *known : name[0] == 'L' ? std::array{"inch", "mm", "cm"} : std::array{"deg", "rad", "grad"})
+        if (text == known) return text;
+    return "auto";
 }

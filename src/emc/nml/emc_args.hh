@@ -19,4 +19,8 @@ struct EmcArgs {
 // Messages of the library as [EMC]DEBUG, RCS_DEBUG, RCS_DEBUG_DEST and RCS_MAX_ERR say. Returns DEBUG.
 uint64_t set_rcs_print(const linuxcnc::IniFile &ini);
 
+// [DISPLAY]LINEAR_UNITS or ANGULAR_UNITS, in lower case: the units of a shell until a client asks for others. "auto" if
+// it is missing or none that is known.
+std::string unit_setting(const linuxcnc::IniFile &ini, const char *name);
+
 #endif

@@ -59,6 +59,7 @@ int run_phase(Setup &s, int phase)
 int execute_block(Setup &s)
 {
     Block &b = s.block;
+    if (s.logs(2, LOG_LINES)) s.log("%s", s.raw);
     if (b.o_type != O_NONE) return execute_oword(s);
     if (s.retain_g43 && b.m_modes[MM_TOOL] == 6) b.phases |= phase_bit(PHASE_RETAIN_G43);
     uint32_t todo = b.phases & ~(phase_bit(b.phase + 1) - 1);

@@ -46,6 +46,18 @@ int Setup::fail(const char *where, const char *format, ...)
     return INTERP_ERROR;
 }
 
+void Setup::log(const char *format, ...) const
+{
+    FILE *out = log_file ? log_file.get() : stderr;
+    fprintf(out, "%s:%d: ", source >= 0 ? sources[size_t(source)]->path().c_str() : "MDI", sequence_number);
+    va_list args;
+    va_start(args, format);
+    vfprintf(out, format, args);
+    va_end(args);
+    fputc('\n', out);
+    fflush(out);
+}
+
 Interp::Interp(Canon &canon) : s(std::make_unique<Setup>(canon)) {}
 Interp::~Interp() = default;
 
@@ -127,6 +139,12 @@ int read_ini(Setup &s)
     s.num_spindles = ini.findIntV("SPINDLES", "TRAJ", 1, 1, CANON_MAX_SPINDLES);
     s.log_level = ini.findIntV("LOG_LEVEL", R, 0);
     s.debug_mask = int(ini.findSIntV("DEBUG", "EMC", 0));
+    s.log_file.reset();
+    if (auto name = ini.findString("LOG_FILE", R); name && !name->empty()) {
+        const std::string path = expand_path(*name);
+        s.log_file.reset(fopen(path.c_str(), "ae"));
+        if (!s.log_file) fprintf(stderr, "[RS274NGC]LOG_FILE: can't write '%s': %s\n", path.c_str(), strerror(errno));
+    }
     const auto units = ini.findString("LINEAR_UNITS", "TRAJ");
     s.metric_machine = !units ? -1 : *units == "inch" ? 0 : 1;
     for (int n = 0; n < 3; ++n) {

@@ -163,6 +163,7 @@ int enter(Setup &s, CallType type, const std::string &name)
     const bool saves = type == CALL_NGC || type == CALL_REMAP;
     CHECK(s.call_level + 1 >= MAX_CALL_LEVELS, "Too many subroutine levels");
     Frame &caller = s.frame();
+    if (s.logs(1, type == CALL_REMAP ? LOG_REMAP : LOG_OWORD)) s.log("call %s, level %d", name.c_str(), s.call_level + 1);
     caller.source = s.source;
     caller.offset = s.after_offset;
     caller.line = s.sequence_number;
@@ -402,6 +403,7 @@ int run_break(Setup &s, bool leave)
 void leave_frame(Setup &s)
 {
     Frame &f = s.frame();
+    if (s.logs(1, f.type == CALL_REMAP ? LOG_REMAP : LOG_OWORD)) s.log("return from %s", f.sub.c_str());
     if (f.type == CALL_NGC || f.type == CALL_REMAP)
         memcpy(s.parameters.data(), f.saved_arguments, sizeof f.saved_arguments);
     f.locals.clear();

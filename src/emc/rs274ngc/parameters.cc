@@ -53,6 +53,7 @@ int store_settings(Setup &s)
         CHECK(!p, "Internal error: Could not assign #<%.*s>", int(name.size()), name.data());
         CHECK(p->read_only, "Cannot assign to read-only parameter #<%.*s>", int(name.size()), name.data());
         p->value = b.named_setting[i].value;
+        if (s.logs(4, LOG_NAMED)) s.log("#<%.*s> = %g", int(name.size()), name.data(), p->value);
     }
     return INTERP_OK;
 }

@@ -162,6 +162,7 @@ int start_remap(Setup &s, const Remap &remap)
     f.line_offset = s.line_offset;
     TRY(collect_words(s, remap, f));
 
+    if (s.logs(1, LOG_REMAP)) s.log("%s is remapped", remap.name.c_str());
     const bool positional = remap.argspec.find('@') != std::string::npos;
     CHECK(positional && has_python(remap), "add parameters: can't add '%c' to args",
           f.words.empty() ? '@' : f.words.front().first);

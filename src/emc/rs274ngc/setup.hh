@@ -16,6 +16,7 @@
 #include <array>
 #include <bitset>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -90,6 +91,9 @@ enum OWord : uint8_t {
     O_PROGRAM, // bare label
     O_M98, O_M99
 };
+
+// Bits of [EMC]DEBUG that the interpreter's log answers to.
+enum { LOG_LINES = 0x100, LOG_OWORD = 0x2000, LOG_REMAP = 0x4000, LOG_NAMED = 0x10000 };
 
 enum CallType : uint8_t { CALL_NONE = 0, CALL_NGC = 1, CALL_M98 = 2, CALL_PYTHON = 3, CALL_REMAP = 4 };
 
@@ -287,7 +291,7 @@ struct Setup {
     int metric_machine = -1; // value of #<_metric_machine>
     int log_level = 0;
     int debug_mask = 0;
-    FILE *log_stream = nullptr; // [RS274NGC]LOG_FILE, else stderr
+    std::unique_ptr<FILE, int (*)(FILE *)> log_file{nullptr, fclose}; // [RS274NGC]LOG_FILE; null: stderr
 
     // ---- parameters ----
     std::vector<double> parameters; // [1..5601]
@@ -362,6 +366,10 @@ struct Setup {
     // ---- helpers ----
     /// Records a fault of the current line and returns INTERP_ERROR.
     int fail(const char *where, const char *format, ...) __attribute__((format(printf, 3, 4)));
+    /// Is something to be logged that [RS274NGC]LOG_LEVEL = level, or the bits `topics` of [EMC]DEBUG, ask for?
+    bool logs(int level, int topics) const { return __builtin_expect(log_level >= level || (debug_mask & topics), 0); }
+    /// One line of the log, with the place in the program in front.
+    void log(const char *format, ...) const __attribute__((format(printf, 2, 3)));
     void trace(const char *where)
     {
         if (stack_size < int(stack.size())) stack[size_t(stack_size++)] = where;

@@ -305,7 +305,7 @@ void IniPins::show(const Settings &s) {
     *pins_->max_acceleration = s.max_acceleration;
     *pins_->max_jerk = s.max_jerk;
     *pins_->peak_scale = s.scurve_peak_scale;
-    *pins_->planner_type = s.planner_type;
+    *pins_->planner_type = planner_pin_ = s.planner_type;
     *pins_->arc_blend = s.arc_blend;
     *pins_->arc_blend_fallback = s.arc_blend_fallback;
     *pins_->arc_blend_depth = s.arc_blend_depth;
@@ -363,9 +363,9 @@ void IniPins::poll(Settings &s, MotionLink &m) {
     if (real(pins_->max_velocity, s.max_velocity)) m.set_max_velocity(s.max_velocity);
     if (real(pins_->default_acceleration, s.default_acceleration)) m.set_acceleration(s.default_acceleration);
     if (real(pins_->max_acceleration, s.max_acceleration)) m.max_traj_acceleration = std::max(0.0, s.max_acceleration);
-    bool jerk = real(pins_->max_jerk, s.max_jerk), planner = whole(pins_->planner_type, s.planner_type);
+    bool jerk = real(pins_->max_jerk, s.max_jerk), planner = whole(pins_->planner_type, planner_pin_);
     if (jerk) m.set_jerk(s.max_jerk);
-    if (planner && s.planner_type != 1) s.planner_type = 0;
+    if (planner) s.planner_type = planner_pin_ == 1;
     if (s.planner_type == 1 && s.max_jerk < 1 && (jerk || planner)) {
         if (!planner_warned_) rcs_print("S-curve planner (planner type 1) requires max jerk >= 1.0; using trapezoidal planner\n");
         planner_warned_ = true;

@@ -51,6 +51,7 @@ private:
     int comp_ = -1, joints_ = 0;
     Pins *pins_ = nullptr;
     bool planner_warned_ = false;
+    int planner_pin_ = 0; // what its pin said, which may be no type there is
 };
 
 #endif

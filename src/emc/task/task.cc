@@ -101,6 +101,20 @@ void Task::wire_canon() {
     canon_->hal_lookup = hal_number;
 }
 
+// Is the text a printf format for one int, or none?
+static bool takes_one_integer(const std::string &format) {
+    int values = 0;
+    for (size_t at = 0; (at = format.find('%', at)) != std::string::npos; at++) {
+        if (format[at + 1] == '%') {
+            at++;
+            continue;
+        }
+        at = format.find_first_not_of("-+ 0123456789", at + 1);
+        if (at == std::string::npos || !strchr("dixX", format[at]) || ++values > 1) return false;
+    }
+    return true;
+}
+
 bool Task::start() {
     if (!ini_.open(ini_file_)) return false;
     debug_ = static_cast<unsigned>(set_rcs_print(ini_));
@@ -112,7 +126,10 @@ bool Task::start() {
     if (int n = ini_.findIntV("INTERP_MAX_LEN", "TASK", 1000); n > 0) interp_max_len_ = static_cast<size_t>(n);
     if (int n = ini_.findIntV("MDI_QUEUE", "TASK", -1); n >= 0) mdi_queue_max_ = static_cast<size_t>(n);
     run_from_line_restores_ = strcasecmp(ini_.findStringV("RUN_FROM_LINE", "TASK", "").c_str(), "restore") == 0;
-    io_error_ = ini_.findStringV("IO_ERROR", "TASK", io_error_);
+    if (auto text = ini_.findString("IO_ERROR", "TASK")) {
+        if (takes_one_integer(*text)) io_error_ = *text;
+        else rcs_print_error("[TASK]IO_ERROR: '%s' may hold one %%d and no other %%; not used\n", text->c_str());
+    }
 
     stat_.task.mode = EMC_TASK_MODE_MANUAL;
     stat_.task.state = EMC_TASK_STATE_ESTOP;

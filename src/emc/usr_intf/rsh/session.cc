@@ -352,6 +352,8 @@ bool Server::start() {
     if (!ini.open(options.ini_file)) return false;
     set_rcs_print(ini);
     ini_version = ini.findStringV("VERSION", "EMC", "1.1");
+    linear_conversion = upper(unit_setting(ini, "LINEAR_UNITS"));
+    angular_conversion = upper(unit_setting(ini, "ANGULAR_UNITS"));
     servo_period_s_ = ini.findRealV("SERVO_PERIOD", "EMCMOT", 1e7) * 1e-9;
     std::string nml = ini.findStringV("NML_FILE", "EMC", "");
     verbose_nml_error_messages = 0;

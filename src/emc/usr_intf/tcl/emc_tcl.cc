@@ -23,6 +23,7 @@
 
 #include "client.hh"
 #include "emc_tcl.hh"
+#include "emc_args.hh"
 #include "inifile.hh"
 #include "kerf_clock.h"
 #include "rcs_print.hh"
@@ -559,7 +560,12 @@ int emc_init(ClientData data, Tcl_Interp *interp, int argc, Tcl_Obj *const argv[
     }
     linuxcnc::IniFile ini;
     std::string nml;
-    if (ini.open(link.ini_file)) nml = ini.findStringV("NML_FILE", "EMC", "");
+    if (ini.open(link.ini_file)) {
+        nml = ini.findStringV("NML_FILE", "EMC", "");
+        set_rcs_print(ini);
+        link.linear = unit_setting(ini, "LINEAR_UNITS");
+        link.angular = unit_setting(ini, "ANGULAR_UNITS");
+    }
     Tcl_Obj *load[] = {Tcl_NewStringObj("emc_ini_load", -1), Tcl_NewStringObj(link.ini_file.c_str(), -1)}; // emc_ini reads it too; sets EMC_INIFILE
     for (Tcl_Obj *o : load) Tcl_IncrRefCount(o);
     Tcl_EvalObjv(interp, 2, load, TCL_EVAL_GLOBAL);
