@@ -68,7 +68,7 @@ class Composer:
         if self.stat is not None:
             offset = [(a + b) * (1.0 if 3 <= i <= 5 else self.unit)
                       for i, (a, b) in enumerate(zip(self.stat.g5x_offset, self.stat.g92_offset))]
-        return kerf_raster.Drawing(program.positions, program.kinds, program.lines, self.s.geometry, offset, self.s.coordinates, plane,
+        return kerf_raster.Drawing(program.points, program.kinds, program.lines, self.s.geometry, offset, self.s.coordinates, plane,
                                    self.foam_w if plane == 1 else self.foam_z if plane == 0 else 0.0)
 
     def shown_box(self):

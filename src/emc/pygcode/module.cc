@@ -223,10 +223,17 @@ void bind_program(py::module_ &m)
     c.def_property_readonly(
         "positions",
         [](const py::object &self) {
-            const auto &p = self.cast<const ProgramPath &>().points;
-            return view(self, p.data(), "f", 4, {Py_ssize_t(p.size()), 9});
+            auto &p = self.cast<ProgramPath &>().points;
+            return view(self, p.nine(), "f", 4, {Py_ssize_t(p.size()), 9});
         },
         py::keep_alive<0, 1>());
+    c.def_property_readonly(
+        "points",
+        [](const py::object &self) {
+            const auto &p = self.cast<const ProgramPath &>().points;
+            return view(self, p.data(), "f", 4, {Py_ssize_t(p.size()), Py_ssize_t(p.columns())});
+        },
+        py::keep_alive<0, 1>(), "As they are kept: N x 3, or as many columns as hold those axes that leave zero.");
     c.def_property_readonly(
         "lines",
         [](const py::object &self) {

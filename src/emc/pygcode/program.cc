@@ -19,9 +19,44 @@ void Box::add(double x, double y, double z)
     }
 }
 
+std::vector<float> PathPoints::with_columns(size_t columns) const
+{
+    std::vector<float> out(size() * columns);
+    for (size_t i = 0; i < size(); ++i) std::copy_n(&data_[i * columns_], columns_, &out[i * columns]);
+    return out;
+}
+
+const float *PathPoints::nine()
+{
+    if (columns_ == 9) return data_.data();
+    if (wide_.empty()) wide_ = with_columns(9);
+    return wide_.data();
+}
+
+void PathPoints::make_room(const Point9 &p)
+{
+    size_t needed = 9;
+    while (needed > columns_ && float(p[needed - 1]) == 0) --needed;
+    if (needed == columns_) return;
+    data_ = with_columns(needed);
+    columns_ = needed;
+}
+
+void PathPoints::push_back(const Point9 &p)
+{
+    make_room(p);
+    for (size_t k = 0; k < columns_; ++k) data_.push_back(float(p[k]));
+}
+
+void PathPoints::set(size_t i, const Point9 &p)
+{
+    make_room(p);
+    for (size_t k = 0; k < columns_; ++k) data_[i * columns_ + k] = float(p[k]);
+}
+
 void ProgramPath::release_path()
 {
-    std::vector<std::array<float, 9>>().swap(points);
+    points = PathPoints();
     std::vector<int32_t>().swap(lines);
     std::vector<uint8_t>().swap(kinds);
 }
@@ -184,7 +219,7 @@ class PathCanon final : public PreviewCanon
             const bool ends = i + 1 == path.points.size() || path.kinds[i + 1] != path.kinds[i];
             odd = !odd;
             if (path.kinds[i] != uint8_t(PathKind::JUMP) && !ends && odd) continue;
-            path.points[to] = path.points[i];
+            path.points.move(to, i);
             path.lines[to] = path.lines[i];
             path.kinds[to++] = path.kinds[i];
         }
@@ -199,14 +234,12 @@ class PathCanon final : public PreviewCanon
         // A piece that was left out is replaced by the next of its kind.
         if (path.thinned > 1 && kind != PathKind::JUMP && left_out && !path.points.empty() && path.kinds.back() == uint8_t(kind)) {
             left_out = ++skipped % path.thinned != 0;
-            for (size_t i = 0; i < 9; ++i) path.points.back()[i] = float(p[i]);
+            path.points.set(path.points.size() - 1, p);
             path.lines.back() = line;
             return;
         }
         left_out = path.thinned > 1 && kind != PathKind::JUMP;
-        std::array<float, 9> v;
-        for (size_t i = 0; i < 9; ++i) v[i] = float(p[i]);
-        path.points.push_back(v);
+        path.points.push_back(p);
         path.lines.push_back(line);
         path.kinds.push_back(uint8_t(kind));
     }

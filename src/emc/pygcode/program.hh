@@ -9,6 +9,7 @@
 #ifndef KERF_PROGRAM_HH
 #define KERF_PROGRAM_HH
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -48,10 +49,32 @@ struct ProgramOptions {
     size_t max_vertices = 0; // beyond it, only every n-th piece is kept (0: no bound)
 };
 
+/// Vertices of nine axes; of each the first three, or as many as it takes to hold those that ever leave zero.
+class PathPoints {
+public:
+    size_t size() const { return data_.size() / columns_; }
+    bool empty() const { return data_.empty(); }
+    size_t columns() const { return columns_; }
+    const float *data() const { return data_.data(); }
+    void push_back(const Point9 &p);
+    void set(size_t i, const Point9 &p);
+    void move(size_t to, size_t from) { std::copy_n(&data_[from * columns_], columns_, &data_[to * columns_]); }
+    void resize(size_t n) { data_.resize(n * columns_); }
+    void shrink_to_fit() { data_.shrink_to_fit(); }
+    /// All vertices with nine columns; what was made for that stays as long as the path.
+    const float *nine();
+
+private:
+    std::vector<float> with_columns(size_t columns) const;
+    void make_room(const Point9 &p);
+    std::vector<float> data_, wide_;
+    size_t columns_ = 3;
+};
+
 /// The path of a program. Vertex n ends a piece that began at vertex n-1; a JUMP vertex
 /// begins a new run.
 struct ProgramPath {
-    std::vector<std::array<float, 9>> points;
+    PathPoints points;
     std::vector<int32_t> lines;
     std::vector<uint8_t> kinds;
     std::vector<std::pair<uint32_t, int>> tool_changes; // vertex, tool number

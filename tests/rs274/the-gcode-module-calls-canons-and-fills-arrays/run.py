@@ -96,6 +96,7 @@ with tempfile.TemporaryDirectory() as d:
     check(p.result == 1 and p.error == "" and p.last_line == 16, (p.error, p.last_line))
     points, lines, kinds = p.positions.tolist(), p.lines.tolist(), p.kinds.tolist()
     check(len(points) == len(lines) == len(kinds) == p.n_vertices, "lengths")
+    check([row[:3] for row in points] == p.points.tolist() and p.positions.shape[1] == 9, "three columns hold what only X, Y and Z fill")
     check(kinds[0] == 3 and kinds[1] == 1 and near(points[1][:3], [1, 1, 0]), points[:2])
     arc = [n for n, k in enumerate(kinds) if k == 2]
     check(len(arc) == 32 and all(abs(math.hypot(points[n][0] - 2, points[n][1] - 1) - 1) < 1e-6 for n in arc), len(arc))
@@ -105,6 +106,12 @@ with tempfile.TemporaryDirectory() as d:
     check(abs(p.cutting_time(5) - p.cutting_length / 5 * 60) < 1e-6 and abs(p.cutting_time(1000) - p.cutting_length / 10 * 60) < 1e-6, "times")
     check(p.tools == [(len([k for n, k in enumerate(kinds) if lines[n] <= 12]), 1)] and len(p.marks) == 2, (p.tools, p.marks))
     check(near(p.extents[0], [1 - 3 / 25.4 * 0, 0, 0], 2), p.extents)
+    open(d + "/turns.ngc", "w").write("G20 F9\nG1 X1 A0\nG1 X2 A5 Y1\nG1 X3 A0\nG1 U2\nM2\n")
+    for last, columns in ((4, 4), (5, 7)):
+        open(d + "/part.ngc", "w").write("".join(open(d + "/turns.ngc").readlines()[:last]) + "M2\n")
+        turns = gcode.load(d + "/part.ngc")
+        check(turns.points.shape[1] == columns and turns.points.tolist() == [row[:columns] for row in turns.positions.tolist()], turns.points.shape)
+        check(turns.positions.tolist()[2][:4] == [2, 1, 0, 5] and turns.positions.tolist()[-1][6] == (2 if columns == 7 else 0), turns.positions.tolist())
     stop = gcode.load(d + "/t.ngc", tools=tools, progress=lambda line: True)
     check(stop.result in (0, 1), stop.result)
     open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")

@@ -42,8 +42,8 @@ def measure(path):
     before, begin = memory_mb(), time.process_time()
     program = gcode.load(path, str(Path(path).with_suffix(".var")), ["G21"])
     read = time.process_time() - begin
-    drawing = Drawing(program.positions, program.kinds, program.lines)
-    program.free_path() if hasattr(program, "free_path") else None
+    drawing = Drawing(program.points, program.kinds, program.lines)
+    program.release_path()
     prepared = time.process_time() - begin - read
     mb = memory_mb() - before
     camera, raster = Camera(), Raster(WIDTH, HEIGHT)

@@ -100,7 +100,8 @@ std::array<float, 3> Places::operator()(const float *p) const
     return {float(q[0]), float(q[1]), float(q[2])};
 }
 
-Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines, size_t count, const Placement &placement)
+Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines, size_t count, size_t columns,
+                 const Placement &placement)
 {
     const Places place(placement);
     xyz_.reserve(3 * count);
@@ -112,10 +113,10 @@ Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines
         kinds_.push_back(kind);
         lines_.push_back(line);
     };
+    float from[9] = {}, to[9] = {};
     for (size_t i = 0; i < count; ++i) {
-        const float *to = points + 9 * i;
+        std::copy_n(points + columns * i, columns, to);
         if (place.turns() && i > 0 && kinds[i] < JUMP) { // a rotary move is a curve
-            const float *from = to - 9;
             const double most = std::max({std::fabs(to[3] - from[3]), std::fabs(to[4] - from[4]), std::fabs(to[5] - from[5])});
             const int steps = most > 0 ? int(std::min(10000.0, std::ceil(std::max(MIN_TURN_STEPS, most / TURN_STEP_DEG)))) : 1;
             for (int k = 1; k < steps; ++k) {
@@ -125,6 +126,7 @@ Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines
             }
         }
         add(to, kinds[i], lines[i]);
+        std::copy_n(to, 9, from);
     }
     build_levels();
 }

@@ -60,8 +60,9 @@ class Drawing {
 public:
     static constexpr size_t CHUNK = 2048; // list entries
 
-    /// points: count rows of nine axes (inches, degrees); kinds: what ends at a vertex, JUMP (3) begins a run.
-    Drawing(const float *points, const uint8_t *kinds, const int32_t *lines, size_t count, const Placement &placement);
+    /// points: count rows of the first `columns` of nine axes (inches, degrees); the others are zero. kinds: what ends at a vertex, JUMP (3) begins a run.
+    Drawing(const float *points, const uint8_t *kinds, const int32_t *lines, size_t count, size_t columns,
+            const Placement &placement);
 
     const std::vector<float> &xyz() const { return xyz_; }
     const std::vector<uint8_t> &kinds() const { return kinds_; }

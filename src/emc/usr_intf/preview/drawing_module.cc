@@ -12,11 +12,11 @@ using namespace kerf;
 
 namespace {
 
-/// Checks a buffer's shape; `what` names it in the error.
+/// Checks a buffer's shape (width 9: rows of up to nine; 0: a list); `what` names it in the error.
 py::buffer_info rows(const py::buffer &b, const char *what, const char *format, int width)
 {
     py::buffer_info info = b.request();
-    const bool shape = width ? info.ndim == 2 && info.shape[1] == width && info.strides[0] == width * info.itemsize : info.ndim == 1;
+    const bool shape = width ? info.ndim == 2 && info.shape[1] >= 3 && info.shape[1] <= width && info.strides[0] == info.shape[1] * info.itemsize : info.ndim == 1;
     if (!shape || info.format != format || info.strides[info.ndim - 1] != info.itemsize)
         throw py::value_error(std::string(what) + " must be an unbroken array of the documented type");
     return info;
@@ -31,7 +31,7 @@ std::shared_ptr<Drawing> make(const py::buffer &points, const py::buffer &kinds,
     for (size_t i = 0; i < placement.offset.size() && i < offset.size(); ++i) placement.offset[i] = offset[i];
     py::gil_scoped_release release;
     return std::make_shared<Drawing>(static_cast<const float *>(p.ptr), static_cast<const uint8_t *>(k.ptr),
-                                     static_cast<const int32_t *>(l.ptr), size_t(p.shape[0]), placement);
+                                     static_cast<const int32_t *>(l.ptr), size_t(p.shape[0]), size_t(p.shape[1]), placement);
 }
 
 template <class T> py::memoryview view(const std::vector<T> &data, const char *format, py::ssize_t width)
@@ -55,7 +55,7 @@ void bind_drawing(py::module_ &m)
         "that is never further from the path than tolerance(k). The views live as long as the drawing.")
         .def(py::init(&make), py::arg("points"), py::arg("kinds"), py::arg("lines"), py::arg("geometry") = "XYZABCUVW",
              py::arg("offset") = std::vector<double>(), py::arg("coordinates") = "XYZABCUVW", py::arg("plane") = -1, py::arg("plane_z") = 0.0,
-             "points: N x 9 float32 (inches, degrees); plane 0 or 1: XY or UV of a foam cutter at height plane_z.")
+             "points: N x 9 (or the first 3 or more columns, the others zero) float32 (inches, degrees); plane 0 or 1: XY or UV of a foam cutter at height plane_z.")
         .def_property_readonly("vertices", [](const Drawing &d) { return view(d.xyz(), "f", 3); }, py::keep_alive<0, 1>())
         .def_property_readonly("kinds", [](const Drawing &d) { return view(d.kinds(), "B", 0); }, py::keep_alive<0, 1>())
         .def_property_readonly("lines", [](const Drawing &d) { return view(d.lines(), "i", 0); }, py::keep_alive<0, 1>())
