@@ -1,0 +1,3 @@
+#!/bin/bash
+unset KERF_CLOCK
+exec /usr/bin/python3 -B test.py
