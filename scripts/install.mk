@@ -12,7 +12,7 @@ USER_SCRIPTS := linuxcnc axis linuxcnc_check_ini linuxcnc_var linuxcnc_info linu
 copy_tree = mkdir -p $(DESTDIR)$(2) && cp -rP $(1)/. $(DESTDIR)$(2)/ && find $(DESTDIR)$(2) -name __pycache__ -prune -exec rm -rf {} +
 
 # Modules that users copy and change.
-TEMPLATES := src/emc/motion/homecomp.comp src/emc/tp/tpcomp.comp src/emc/kinematics/userkins.comp
+TEMPLATES := src/emc/motion/homecomp.comp src/emc/tp/tpcomp.comp src/emc/kinematics/userkins.comp src/emc/kinematics/userkfuncs.c
 
 install: all $(INSTALL_HOOKS)
 	mkdir -p $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/linuxcnc $(DESTDIR)$(moduledir) $(DESTDIR)$(PY_SITE) \
@@ -37,7 +37,8 @@ install: all $(INSTALL_HOOKS)
 	$(call copy_tree,configs,$(DOC)/examples/sample-configs)
 	$(call copy_tree,tcl,$(tcldir))
 	$(INST) src/config.h $(DESTDIR)$(SHARE)
-	[ ! -f src/Makefile.modinc ] || $(INST) src/Makefile.modinc $(DESTDIR)$(SHARE)
+	$(INST) src/Makefile.modinc src/switchkins.mk $(DESTDIR)$(SHARE)
+	mkdir -p $(DESTDIR)$(prefix)/lib/linuxcnc/switchkins && $(INST) $(SWITCHKINS_PARTS) $(DESTDIR)$(prefix)/lib/linuxcnc/switchkins
 	mkdir -p $(DESTDIR)$(DOC)/examples/templates
 	$(INST) $(TEMPLATES) $(DESTDIR)$(DOC)/examples/templates
 	ln -sfn ../../../linuxcnc/ncfiles $(DESTDIR)$(DOC)/examples/nc_files

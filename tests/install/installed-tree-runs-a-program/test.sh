@@ -16,6 +16,14 @@ echo "status $?"
 cat "$root/text" >&2
 grep -o 'none exceeded' "$root/text"
 
+# Functions of the user's own in switchable kinematics, without the sources of the modules.
+mkdir "$root/kins" && cd "$root/kins" || exit 1
+sed 's/userk\.fct/userk.mine/' "$root/usr/share/doc/linuxcnc/examples/templates/userkfuncs.c" > mine.c
+env -i PATH="/usr/bin:/bin" userkfuncs=mine.c make -s -f "$root/usr/share/linuxcnc/switchkins.mk" MODULES=genserkins install >&2 || echo "switchkins.mk fails"
+printf 'loadrt genserkins\nshow pin userk\n' > k.hal
+env -i HOME="$HOME" PATH="/usr/bin:/bin" KERF_INSTANCE="${KERF_INSTANCE:-inst}" "$root/usr/bin/halrun" -f k.hal | grep -o 'userk.mine'
+cd - > /dev/null || exit 1
+
 own=$root/own
 mkdir -p "$own"/{hal,component,machine,headers,python,stream,haltcl,twopass}
 printf 'loadrt and2 count=2\nnet x and2.0.out => and2.1.in0\nlist sig\n' > "$own/hal/test.hal"
