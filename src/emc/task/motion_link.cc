@@ -604,8 +604,8 @@ void MotionLink::update(std::string *error) {
     t.distance_to_go = s.distance_to_go;
     t.dtg = s.dtg;
     t.current_vel = s.current_vel;
-    t.override_effective = s.override_effective;
-    t.override_cause = s.override_cause;
+    stat_.override_effective = s.override_effective;
+    stat_.override_cause = s.override_cause;
     t.tag = s.tag;
     unsigned char enables = t.mode == EMC_TRAJ_MODE_COORD ? s.enables_queued : s.enables_new;
     t.feed_override_enabled = enables & FS_ENABLED;
