@@ -18,7 +18,8 @@
 #define MOST_VEL 0.5     /* of its velocity: only a table steeper than that would need more */
 #define SLOPE_MARGIN 1.1 /* for catching up with a table's slope at full speed */
 #define STILL 1e-7       /* units/s: speeds below are rounding of kinematics, no direction */
-#define REVERSAL 1e-5    /* units: ways back below are the last cycles of a stop, no reversal */
+#define REVERSAL 1e-5    /* units, and */
+#define LAST_CYCLES 0.3  /* of a cycle's jerk: ways back below both are the last cycles of a stop, no reversal */
 
 /* Entry 0 and the last one are sentinels at -DBL_MAX and DBL_MAX. */
 void comp_init(emcmot_joint_t *joint)
@@ -122,7 +123,7 @@ static int direction_of(emcmot_joint_t *jt, double T)
     if (c->direction == 0)
         c->direction = way > 0.0 ? 1 : -1;
     c->back = fmax(0.0, c->back - c->direction * way);
-    if (c->back > REVERSAL) {
+    if (c->back > fmax(REVERSAL, LAST_CYCLES * jt->jerk_limit * T * T * T)) {
         c->direction = -c->direction;
         c->back = 0.0;
     }
@@ -179,6 +180,6 @@ void phase_compensation(struct motion *m)
         }
         wanted_correction(jt, m->servo_period);
         if (jt->comp.shared)
-            approach(jt, m->status->net_feed_scale, m->servo_period);
+            approach(jt, get_homing(j) ? 1.0 : m->status->net_feed_scale, m->servo_period); /* no override slows homing */
     }
 }

@@ -142,15 +142,22 @@ static void stop_at_switch(int j)
     stop_move(j);
 }
 
+/* 1 while the motor moves: the joint, or its backlash that is still taken up. */
+static int motor_moves(int j)
+{
+    const emcmot_joint_t *m = &homes.motion[j];
+    return m->free_tp.active || m->backlash_filt != m->backlash_corr;
+}
+
 /* Waits until the joint rests and then HOME_DELAY_S. 1 when over. */
 static int delay_over(int j)
 {
     struct home_joint *h = &homes.joint[j];
     if (h->ready)
         return 1;
-    if (homes.motion[j].free_tp.active || h->delay < 0) {
+    if (motor_moves(j) || h->delay < 0) {
         h->delay = (int)ceil(HOME_DELAY_S / homes.period);
-        if (homes.motion[j].free_tp.active)
+        if (motor_moves(j))
             return 0;
     }
     if (h->delay > 0) {
@@ -336,7 +343,7 @@ static enum event look_final_start(int j)
 static enum event look_final(int j)
 {
     const emcmot_joint_t *m = &homes.motion[j];
-    if (!m->free_tp.active)
+    if (!motor_moves(j))
         return EV_NEXT;
     return (m->on_pos_limit || m->on_neg_limit) && !has(j, HOME_IGNORE_LIMITS) ? EV_LIMIT : EV_NONE;
 }
@@ -388,8 +395,15 @@ static void leave_sequence(int j) { homes.joint[j].in_sequence = 0; }
 static void unlock(int j) { homes.set_unlock(j, 1); }
 static void lock(int j) { homes.set_unlock(j, 0); }
 
+/* Where the slide is: it moves with all of the backlash behind it, also while the command still takes it up. */
+static double slide_position(int j)
+{
+    const emcmot_joint_t *m = &homes.motion[j];
+    return m->pos_fb + m->backlash_filt - m->backlash_corr;
+}
+
 /* Position of the switch, or where the joint is when it is homed at once. */
-static void set_position(int j) { shift_position(j, homes.joint[j].offset - homes.motion[j].pos_fb); }
+static void set_position(int j) { shift_position(j, homes.joint[j].offset - slide_position(j)); }
 
 static void set_switch_position(int j)
 {
@@ -426,7 +440,7 @@ static void set_index_position(int j)
     double before = m->pos_cmd;
     if (has(j, HOME_INDEX_NO_ENCODER_RESET)) {
         m->pos_fb = m->motor_pos_fb - (m->backlash_filt + m->motor_offset);
-        shift_position(j, h->offset - m->pos_fb);
+        set_position(j);
         return;
     }
     m->motor_offset = -h->offset;

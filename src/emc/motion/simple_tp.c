@@ -102,7 +102,7 @@ static int allowed(const struct approach *p, double a1)
     double v1 = p->v + 0.5 * (p->a + a1) * p->T;
     if (v1 + a1 * fabs(a1) / (2.0 * p->j) > p->vmax)
         return 0;
-    if (p->v + p->T * (p->a / 3.0 + a1 / 6.0) > p->vmax) /* the cycle's mean */
+    if (p->v + p->T * (p->a / 3.0 + a1 / 6.0) > fmax(p->vmax, p->v)) /* the cycle's mean; a lowered limit takes its time */
         return 0;
     double e1 = p->e - p->T * (p->v + p->T * (p->a / 3.0 + a1 / 6.0));
     return stop_reach(v1, a1, p->j, STOP_ACC * p->amax) <= e1;
@@ -150,13 +150,13 @@ static int last_cycles(const struct approach *p, double jmax, double *jerk)
     return 1;
 }
 
-/* A motion that is to stop goes to where it can, as exactly as to any target, and not beyond
+/* A motion that is to stop goes to where it can, as exactly as to any target: one place for all of the stop,
  * the target it had when that lies there within the rounding to whole cycles. */
 static void aim_at_stop(simple_tp_t *tp, double T)
 {
     double d = simple_tp_stop_distance(tp, T), left = tp->pos_cmd - tp->curr_pos;
     double rounding = 25.0 * tp->max_jerk * T * T * T + 0.01 * fabs(d);
-    if (d * left > 0.0 && fabs(left) >= fabs(d) - rounding && fabs(left) <= fabs(d))
+    if (fabs(left - d) <= rounding && left * tp->curr_vel >= 0.0)
         return;
     tp->pos_cmd = tp->curr_pos + d;
 }

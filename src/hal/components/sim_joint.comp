@@ -9,15 +9,17 @@ its homing be tested under bad conditions. Add *read* before motion-controller a
     net j0-hm  sim-joint.0.home-sw    => joint.0.home-sw-in
     net j0-ix  sim-joint.0.index-enable <=> joint.0.index-enable
 
-All places are positions of the slide, which the encoder does not know: it starts at 0 where the slide
-is at the start, and counts from the index once index-enable was set.""";
+All places are positions of the slide, which the encoder does not know: it sits on the motor, starts at 0 where the
+slide is at the start, and counts from the index once index-enable was set.""";
 pin in float cmd "Motor position commanded, in the encoder's coordinates.";
 pin out float fb "Position the encoder tells.";
 pin out float position "True position of the slide.";
+pin out float motor_position "True position of the motor, in the slide's coordinates: within the backlash.";
 pin in bit enable = 1 "The motor follows; without it the slide moves with hand-vel.";
 pin in float hand_vel "Speed at which somebody pushes the slide while the motor is off, units/s.";
 pin in float time_constant "Lag of the drive in seconds; 0 follows exactly.";
 pin io bit index_enable "The next index clears the count, and this pin.";
+pin in float backlash "Play between motor and slide, units.";
 pin in float index_pitch "Distance of the index pulses; 0: none.";
 pin in float index_at "Place of one of them.";
 pin in bit index_reset = 1 "The index clears the count; without it only the pin.";
@@ -35,6 +37,7 @@ pin in s32 stuck "1: the home switch stays closed, -1: open, 0: works.";
 param rw float start "Place of the slide when the component first runs.";
 param rw u32 seed = 1 "Of bounce and noise.";
 variable double at;
+variable double slide;
 variable double zero;
 variable double bounce_s[3];
 variable int contact[3];
@@ -83,23 +86,27 @@ FUNCTION(read)
     if(!started) {
         started = 1;
         random = seed;
-        at = zero = start;
+        at = slide = zero = start;
     }
-    home_sw = switch_reads(__comp_inst, 0, in_zone(at, home_from, home_to, hysteresis, contact[0]), T);
-    neg_lim_sw = switch_reads(__comp_inst, 1, in_zone(at, -INFINITY, neg_lim_at, hysteresis, contact[1]), T);
-    pos_lim_sw = switch_reads(__comp_inst, 2, in_zone(at, pos_lim_at, INFINITY, hysteresis, contact[2]), T);
+    home_sw = switch_reads(__comp_inst, 0, in_zone(slide, home_from, home_to, hysteresis, contact[0]), T);
+    neg_lim_sw = switch_reads(__comp_inst, 1, in_zone(slide, -INFINITY, neg_lim_at, hysteresis, contact[1]), T);
+    pos_lim_sw = switch_reads(__comp_inst, 2, in_zone(slide, pos_lim_at, INFINITY, hysteresis, contact[2]), T);
     if(stuck) home_sw = stuck > 0;
     fb = at - zero;
-    position = at;
+    position = slide;
+    motor_position = at;
 }
 
 FUNCTION(write)
 {
     double T = period * 1e-9, was = at;
     if(!started) return;
-    if(!enable) at += hand_vel * T;
-    else if(time_constant > 0) at += (cmd + zero - at) * (1.0 - exp(-T / time_constant));
+    if(!enable) {
+        at += hand_vel * T;
+        slide += hand_vel * T;
+    } else if(time_constant > 0) at += (cmd + zero - at) * (1.0 - exp(-T / time_constant));
     else at = cmd + zero;
+    slide = fmax(at - 0.5 * backlash, fmin(at + 0.5 * backlash, slide));
     if(index_enable && index_pitch > 0) {
         double turns = floor((at - index_at) / index_pitch), before = floor((was - index_at) / index_pitch);
         if(turns != before) {

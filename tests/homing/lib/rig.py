@@ -3,7 +3,7 @@
 
 Rig(joints, home={j: {...}}, hw={j: {...}}): home are the homing parameters of a joint (names
 of motion's command), hw pins and parameters of its sim-joint. Limits are checked on the true
-positions of the slides, which no change of coordinates touches. Units: machine units, s.
+positions of the motors, which no change of coordinates touches. Units: machine units, s.
 """
 
 import os
@@ -29,7 +29,7 @@ class Rig(Machine):
         lines = [f"loadrt sim_joint count={joints}"]
         for j in range(joints):
             lines += [f"addf sim-joint.{j}.read servo-thread 1", f"unlinkp limitcheck.{j}.pos-cmd",
-                      f"net at{j} sim-joint.{j}.position => limitcheck.{j}.pos-cmd",
+                      f"net at{j} sim-joint.{j}.motor-position => limitcheck.{j}.pos-cmd",
                       f"net cmd{j} => sim-joint.{j}.cmd", f"net amp{j} => sim-joint.{j}.enable",
                       f"net fb{j} sim-joint.{j}.fb => joint.{j}.motor-pos-fb",
                       f"net home{j} sim-joint.{j}.home-sw => joint.{j}.home-sw-in",

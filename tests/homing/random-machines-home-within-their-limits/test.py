@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Property test (FP-036 with a jerk limit): machines with random homing settings, places, switches that bounce and read wrongly,
-with and without a jerk limit. No slide goes beyond its limits of speed, acceleration and jerk; homing
+play in the drives, with and without a jerk limit. No motor goes beyond its limits of speed, acceleration and jerk; homing
 ends; it ends homed with the right zero when the hardware is good, else homed or with a message; an
 abort at a random time stops everything."""
 import random
@@ -21,6 +21,11 @@ for jerk in (0.0, 8000.0):
         m.sleep(0.01)
         m.enable()
         m.unhome()
+        gaps = random.Random(seed * 7 + 1)
+        for j in range(N):
+            gap = gaps.choice([0, 0, 0.01, 0.1, 0.5, 1.0])
+            m.hw(j, backlash=gap)
+            m.send(km.SET_JOINT_BACKLASH, joint=j, backlash=gap)
         groups = rng.choice([(0, 1, 2), (0, 0, 0), (1, 1, 1), (0, -1, -1), (-1, -1, -1), (1, 0, 1)])
         noisy = rng.random() < 0.3
         zero, home = [], []
@@ -63,6 +68,7 @@ for jerk in (0.0, 8000.0):
         abort = rng.uniform(0, 4) if rng.random() < 0.3 else None
         if abort is None:
             seen, ok = m.run_home(-1, 120)
+            m.sleep(0.4)  # the last of the backlash
             told = m.errors()
             r.check(not m.homing(), f"{name}: does not end")
             r.check(ok or (noisy and told), f"{name}: not homed, {told}")
