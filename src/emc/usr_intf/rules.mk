@@ -17,11 +17,12 @@ bench-preview: all
 	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/preview_bench.py'
 BENCHES += bench-clients bench-preview
 
-# A day of the machine (SOAK_HOURS) in virtual time, about half an hour: not among the benches of every day.
+# A day of the machine (SOAK_HOURS) in virtual time, about an hour: not among the benches of every day. A long run tells its looks in
+# SOAK_LOG and ends with a figure after SOAK_WALL_S seconds of wall time.
 .PHONY: bench-soak
 bench-soak: all
 	bash -c '. scripts/rip-environment && cd tests/small-tools/fp-137-programs-that-run-long-keep-their-size && \
-	    SOAK_HOURS=$(or $(SOAK_HOURS),24) MACHINE_TEST_S=36000 KERF_INSTANCE=soak bash test.sh'
+	    SOAK_HOURS=$(or $(SOAK_HOURS),24) SOAK_LOG=$(abspath $(or $(SOAK_LOG),objects/soak.log)) MACHINE_TEST_S=36000 KERF_INSTANCE=soak bash test.sh'
 
 # The screen with OpenGL and its machine for HOURS of virtual time, memory of every process by the way; ends with status 1 when one grows.
 .PHONY: bench-axis-soak
