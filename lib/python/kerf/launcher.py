@@ -207,7 +207,8 @@ class Session:
         # Our own look-ups (subprocess, shutil.which) use the same path.
         os.environ["PATH"] = self.env["PATH"]
         os.environ["HALLIB_PATH"] = hallib_path
-        self.watched = {}        # pid -> name: the session ends when one of these dies
+        self.watched = {}        # pid -> name: the session ends when one of these dies,
+        self.dispensable = {"linuxcncsvr"}    # or the operator is told: server of remote clients, components of HAL
         self.display = None
         self.have_lock = False
         self.task_died = False   # without having put anything in order
@@ -475,7 +476,7 @@ class Session:
             print(f"ini.traj_max_velocity still 0.0 after {time.monotonic() - begun:.0f} seconds")
 
     def watch(self):
-        """Remembers the programs without which the machine cannot go on."""
+        """Remembers the programs that must not end: without most of them the machine cannot go on."""
         wanted = {self.task[:15], "rtapi_app", "linuxcncsvr"}
         for pid in session_processes(self.id):
             name = comm_of(pid)
@@ -485,6 +486,17 @@ class Session:
                 wanted.remove(kind)
                 if not wanted:
                     break
+        for line in self.output("halcmd", "-s", "show", "comp").splitlines():
+            words = line.split()       # number, kind, name, process, state
+            if len(words) == 5 and words[1] == "User" and words[3].isdigit() and lives(int(words[3])):
+                self.watched.setdefault(int(words[3]), words[2])
+                self.dispensable.add(words[2])
+
+    def tell_operator(self, text):
+        """In the logs and, by task, at every screen. Does not wait."""
+        print(text, file=sys.stderr, flush=True)
+        subprocess.Popen([sys.executable, "-c", "import sys, linuxcnc; linuxcnc.command().error_msg(sys.argv[1])", text], env=self.env,
+                         stdin=subprocess.DEVNULL)
 
     def run_display(self):
         command = self.display_command()
@@ -504,15 +516,14 @@ class Session:
             for pid, name in list(self.watched.items()):
                 if lives(pid):
                     continue
-                if name == "linuxcncsvr":         # only remote clients need it
-                    print(f"{name} (process {pid}) died: remote clients are cut off, the machine goes on",
-                          file=sys.stderr)
-                    del self.watched[pid]
-                    if pid in descriptors:
-                        ends.unregister(descriptors[pid])
-                else:
+                if name not in self.dispensable:
                     self.task_died |= name == self.task[:15]
                     raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
+                lost = "remote clients are cut off" if name == "linuxcncsvr" else "what it did is no longer done"
+                self.tell_operator(f"{name} (process {pid}) died: {lost}, the machine goes on")
+                del self.watched[pid]
+                if pid in descriptors:
+                    ends.unregister(descriptors[pid])
             ends.poll(WATCH_MS)
 
     def display_command(self):

@@ -261,6 +261,8 @@ void Task::shutdown() {
     if (interp_) interp_->exit();
     for (int s = 0; s < stat_.motion.traj.spindles; s++)
         if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
+    for (int i = 0; i < EMCMOT_MAX_DIO; i++)
+        if (stat_.motion.synch_do[i]) motion_.set_dout(i, 0, 0, 1);
     io_.estop_on(); // what its pins feed keeps the last value
     motion_.disable();
     update_motion();

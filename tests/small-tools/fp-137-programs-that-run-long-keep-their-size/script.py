@@ -38,8 +38,7 @@ for n in range(ROUNDS):
     sleep(10)
     short = clock.spawn(["/usr/bin/python3", "-c", "import linuxcnc; linuxcnc.stat().poll(); linuxcnc.command().debug(0)"], "short", priority=600)
     clock.wait_until(lambda: short.poll() is not None, 60)
-    while entry := log.poll():
-        errors += entry[0] in (OPERATOR_ERROR, NML_ERROR)
+    errors += sum(m["kind"] in (OPERATOR_ERROR, NML_ERROR) for m in log.poll())
     if n % (ROUNDS // LOOKS) == ROUNDS // LOOKS - 1:
         looks.append(sizes(NAMES))
         if file := os.environ.get("SOAK_LOG"):

@@ -7,6 +7,30 @@ import linuxcnc
 from kerf import clock
 from linuxcnc import *  # noqa: F401,F403
 
+# A program with spindles, coolant, probing, an output and tool changes, four seconds long, with Z at 80 at its start.
+BUSY = """G21 G90 G64 F1200
+M3 S1000
+M8
+G1 X1
+T1 M6
+G43
+G0 Z60
+G10 L1 P4 Z41
+G38.3 Z58 F300
+M4 S500
+M62 P0
+G1 X3
+M63 P0
+T2 M6
+M3 S800
+M7
+G4 P0.4
+G1 X1 F60
+M9
+M5
+M2
+"""
+
 clock.join("test", 900)
 s, c, e = linuxcnc.stat(), linuxcnc.command(), linuxcnc.error_channel()
 
@@ -77,6 +101,13 @@ def run(text, timeout=120.0, name="test.ngc"):
     program(text, name)
     c.auto(AUTO_RUN, 0)
     return c.wait_complete(timeout)
+
+
+def busy_program():
+    """From the same state each time."""
+    mdi("M61 Q0 G49")
+    mdi("G53 G0 X0 Z80")
+    program(BUSY)
 
 
 def idle(timeout=60.0):

@@ -5,28 +5,6 @@
 import hal
 from mill import *
 
-TEXT = """G21 G90 F1200
-M3 S1000
-M8
-G0 X1
-T1 M6
-G43
-G0 Z60
-G10 L1 P4 Z41
-G38.3 Z58 F300
-M4 S500
-M62 P0
-G1 X3
-M63 P0
-T2 M6
-M3 S800
-M7
-G4 P0.2
-G1 X1
-M9
-M5
-M2
-"""
 PINS = ("spindle.0.on", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change", "iocontrol.0.tool-prepare", "motion.digital-out-00")
 
 
@@ -43,7 +21,7 @@ STOPS = {"abort": c.abort, "off": lambda: c.state(STATE_OFF), "estop": lambda: c
          "limit": lambda: hal.set_p("joint.0.neg-lim-sw-in", "1"), "fault": lambda: hal.set_p("joint.1.amp-fault-in", "1")}
 on()
 mdi("G10 L2 P1 X0.5 Y0.25")
-program(TEXT)
+busy_program()
 c.auto(AUTO_RUN, 0)
 total = 0.0
 while poll().interp_state != INTERP_IDLE:
@@ -56,9 +34,7 @@ wrong, told = [], set()
 steps = 16
 for name, stop in STOPS.items():
     for n in range(steps):
-        mdi("M61 Q0 G49")
-        mdi("G53 G0 X0 Z80")
-        program(TEXT)
+        busy_program()
         messages()
         tool = s.tool_in_spindle
         c.auto(AUTO_RUN, 0)

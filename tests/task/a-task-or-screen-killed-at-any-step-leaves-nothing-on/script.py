@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""script.py STEP FOLDER: kills task STEP times 0.35 s after the program's start; FOLDER/seen says what became of the outputs."""
+"""script.py STEP FOLDER VICTIM: kills task or the screen, which is this program, STEP times 0.35 s after the program's start; FOLDER/seen says what became of the outputs."""
 import os
 import signal
 import sys
@@ -9,25 +9,6 @@ import hal
 import session
 from mill import *
 
-TEXT = """G21 G90 G64
-M3 S1000
-M8
-G1 X1 F1200
-T1 M6
-G43
-G0 Z60
-G10 L1 P4 Z41
-G38.3 Z58 F300
-M4 S500
-M62 P0
-G1 X3
-T2 M6
-M3 S800
-M7
-G4 P0.4
-G1 X1 F60
-M2
-"""
 PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out", "motion.digital-out-00")
 SIGNALS = ("flood", "mist", "estop-loop", "tool-change")
 step, folder = int(sys.argv[1]), Path(sys.argv[2])
@@ -38,9 +19,7 @@ me = hal.component("observer")
 me.ready()
 on(home=False)
 started = [p for p in PINS[:1] if hal.get_value(p)] + [x for x in ("flood", "mist", "tool-change") if hal.get_value(x)]
-mdi("M61 Q0 G49")
-mdi("G53 G0 X0 Z80")
-program(TEXT)
+busy_program()
 c.auto(AUTO_RUN, 0)
 sleep(0.35 * step + 0.003)
 poll()
@@ -52,7 +31,9 @@ line = s.current_line
 while not Path("mill.var.journal").exists():    # it is written in wall time
     time.sleep(0.01)
 if os.fork():
-    session.kill("milltask")
+    if sys.argv[3] == "screen":
+        os.kill(os.getpid(), signal.SIGKILL)
+    session.kill(sys.argv[3])
     clock.leave()
     signal.pause()
 signal.signal(signal.SIGTERM, signal.SIG_IGN)    # a child looks on
