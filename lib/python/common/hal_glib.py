@@ -136,8 +136,8 @@ def _code(c):
     return f"G{c // 10}" if c % 10 == 0 else f"G{c // 10}.{c % 10}"
 
 
-class _GStat(GObject.GObject):
-    """The one status object; use GStat()."""
+class GStat(GObject.GObject):
+    """GStat() is always the same object; so is that of a class derived from it, which may bring its own signals and methods."""
 
     __gtype_name__ = "GStat"
     __gsignals__ = {name: (GObject.SignalFlags.RUN_FIRST, GObject.TYPE_NONE, types) for name, types in _SIGNALS.items()}
@@ -157,7 +157,16 @@ class _GStat(GObject.GObject):
     INTERP = {linuxcnc.INTERP_WAITING: "interp-waiting", linuxcnc.INTERP_READING: "interp-reading", linuxcnc.INTERP_PAUSED: "interp-paused",
               linuxcnc.INTERP_IDLE: "interp-idle"}
 
-    def __init__(self, stat=None):
+    def __new__(cls, *args, **kwargs):
+        if "_the_object" not in cls.__dict__:
+            cls._the_object = super().__new__(cls)
+            cls._the_object._start(*args, **kwargs)
+        return cls._the_object
+
+    def __init__(self, *args, **kwargs):
+        pass  # Python comes here each time that the object is asked for
+
+    def _start(self, stat=None):
         GObject.Object.__init__(self)
         self.stat = stat or linuxcnc.stat()
         self.cmd = linuxcnc.command()
@@ -679,22 +688,3 @@ class _GStat(GObject.GObject):
     def _send(self, message, data):
         if self._out:
             self._out.send_multipart([b"STATUS", json.dumps({"MESSAGE": message, "ARGS": [data]}).encode()])
-
-
-class GStat:
-    """GStat() is always the same object."""
-
-    _instance = None
-
-    def __new__(cls, *args, **kwargs):
-        if not GStat._instance:
-            GStat._instance = _GStat(*args, **kwargs)
-        return GStat._instance
-
-    def __class_getitem__(cls, name):
-        return getattr(_GStat, name)
-
-
-for _name in ("DEFAULT", "WARNING", "CRITICAL", "TEMPORARY_MESSAGE", "TEMPARARY_MESSAGE", "OPERATOR_ERROR", "OPERATOR_TEXT", "NML_ERROR", "NML_TEXT", "MANUAL",
-              "AUTO", "MDI", "STATE_ESTOP", "STATE_RESET", "STATE_ON", "STATE_OFF", "JOGJOINT", "JOGTELEOP"):
-    setattr(GStat, _name, getattr(_GStat, _name))

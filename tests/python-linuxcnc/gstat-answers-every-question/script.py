@@ -99,3 +99,26 @@ for name, args in hands.items():
     g.connect(name, lambda _, *got, name=name: heard.append((name, got)))
     g.emit(name, *args)
 print("passed on between widgets:", len(heard), [n for n, a in hands.items() if (n, a) not in heard])
+
+
+class Status(hal_glib.GStat):
+    """As the screens of others derive it: their own signals, methods and start, one object."""
+    __gsignals__ = {"of-mine": (GObject.SignalFlags.RUN_FIRST, GObject.TYPE_NONE, (GObject.TYPE_INT,))}
+    started = 0
+
+    def __init__(self):
+        if Status.started == 0:
+            GObject.Object.__init__(self)
+            super().__init__()
+        Status.started += 1
+
+    def doubled(self):
+        return 2 * self.get_jograte()
+
+
+own, told = Status(), []
+own.connect("of-mine", lambda _, n: told.append(n))
+own.connect("jograte-changed", lambda _, rate: told.append(rate))
+own.emit("of-mine", 5)
+own.set_jograte(12)
+print("derived:", own is Status(), isinstance(own, hal_glib.GStat), own.doubled(), told, g is hal_glib.GStat(), Status.MDI)
