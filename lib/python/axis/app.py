@@ -28,6 +28,7 @@ from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
 from .touchoff import G21_ACTIVE, Checker, brackets, scale_text, unit_text
 from .usercode import UserPart
 from .variables import Variables
+from .waits import Waits
 from .window import WindowPart
 
 OFTEN = ("redraw_soon", "redraw", "redraw_dro")      # not worth a note
@@ -73,7 +74,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.panel = None
         self.widget_signs = {}
         self.loader = program.Loader(self.settings)
-        self.estimate = Estimate(ini_path)
+        self.waits = Waits(self.prefs, ini_path, self.hal_value)
+        self.estimate = Estimate(ini_path, self.waits)
         self.timed = False       # a program ran at the last look
         self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
         self.user = {}

@@ -9,7 +9,7 @@ from tkinter import filedialog
 
 import linuxcnc
 
-from . import dialogs, program
+from . import dialogs, program, waits
 from .mdi import MdiHistory
 from .settings import MM_PER_INCH
 
@@ -147,6 +147,7 @@ def make(app):
         def gcode_properties(*event):
             rows = program.properties(app.shown_file, app.loaded_file if app.is_filtered else None, app.preview.program,
                                       app.settings, bool(v.metric.get()), _, app.estimate.total)
+            rows += waits.rows(app.estimate.times and app.estimate.times.waits, app.waits.values, _)
             text = "\n".join(f"{name + ':':<18} {value}" for name, value in rows)
             dialogs.ask(root, _("G-Code Properties"), text, "info", 0, _("OK"), escape=0)
 

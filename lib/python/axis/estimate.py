@@ -49,6 +49,7 @@ class Times:
         self.total = None
         self.complete = False        # total is the program's end
         self.reason = ""             # why it is not
+        self.waits = None            # tool changes, spindle starts, user codes, waits for inputs, stops
 
     def read(self, stream):
         for text in stream:
@@ -57,6 +58,8 @@ class Times:
                 self.lines.append(int(words[0]))
                 self.numbers.append(int(words[1]))
                 self.seconds.append(float(words[2]))
+            elif words and words[0] == "waits":
+                self.waits = tuple(int(n) for n in text.split()[1:])
             elif words and words[0] in ("end", "stopped"):
                 self.complete = words[0] == "end"
                 self.total, self.reason = float(words[1]), words[2].strip() if len(words) > 2 else ""
@@ -83,8 +86,8 @@ class Times:
 class Estimate:
     """The times of one program, and how far it is."""
 
-    def __init__(self, ini_path):
-        self.ini_path = ini_path
+    def __init__(self, ini_path, waits):
+        self.ini_path, self.waits = ini_path, waits
         self.child = self.reader = self.times = self.job = None
         self.at = 0.0            # of the times in use
         self.line = None
@@ -104,7 +107,7 @@ class Estimate:
         path, init_codes, block_delete = self.job
         words = [word for code in init_codes for word in ("-i", code)]
         try:
-            self.child = subprocess.Popen(["nice", "-n", "10", "kerf-time", "-ini", self.ini_path, "-b", str(int(block_delete)), *rates.words(), *words, path],
+            self.child = subprocess.Popen(["nice", "-n", "10", "kerf-time", "-ini", self.ini_path, "-b", str(int(block_delete)), *rates.words(), *self.waits.words(), *words, path],
                                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                           cwd=os.path.dirname(os.path.abspath(self.ini_path)))
         except OSError:

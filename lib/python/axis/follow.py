@@ -167,6 +167,7 @@ class FollowPart:
         """FP-138: the time that the program needs still, or needs at all."""
         s, e = self.stat, self.estimate
         running = s.task_mode == linuxcnc.MODE_AUTO and s.interp_state != linuxcnc.INTERP_IDLE
+        self.waits.watch(clock.now(), s)
         e.follow(clock.now(), Rates.of(s), running, not s.task_paused and s.feedrate > 0, s.motion_line)
         if self.timed and not running and s.interp_state == linuxcnc.INTERP_IDLE:
             self.estimate_time()         # the next run begins here, with this tool

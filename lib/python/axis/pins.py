@@ -37,6 +37,15 @@ class PinsPart:
     def pin_value(self, name):
         return bool(self.comp[name]) if getattr(self, "comp", None) is not None else False
 
+    def hal_value(self, name):
+        """Of any HAL pin; None where there is none."""
+        if getattr(self, "comp", None) is None:
+            return None
+        try:
+            return hal.get_value(name)
+        except RuntimeError:
+            return None
+
     def pulse_abort(self):
         self.set_pin("abort", True)
         self.root.after(ABORT_PULSE_MS, lambda: self.set_pin("abort", False))

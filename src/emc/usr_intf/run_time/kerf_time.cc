@@ -26,9 +26,10 @@ constexpr double STEP_S = 0.2;
 constexpr int LINES = 100;          // read at a time
 
 const char USAGE[] = "usage: kerf-time -ini FILE [-f FEED] [-r RAPID] [-s SPINDLE] [-v MAX_VELOCITY] [-t TOOL_CHANGE_S]\n"
-                     "       [-c CPU_SECONDS] [-i CODE]... [-b 0|1] PROGRAM\n"
+                     "       [-a S_PER_RPM] [-u USER_CODE_S] [-c CPU_SECONDS] [-i CODE]... [-b 0|1] PROGRAM\n"
                      "Prints how long PROGRAM will run on the running machine. FEED, RAPID, SPINDLE: overrides, 1 = 100 %.\n"
-                     "-i: a line that is executed before and does not count. -b: lines with '/' are left out (1, default) or not.\n";
+                     "-i: a line that is executed before and does not count. \n"
+                     "-a: what a spindle takes to change its speed. -b: lines with '/' are left out (1, default) or not.\n";
 
 struct Options {
     std::string ini, program;
@@ -61,6 +62,8 @@ bool parse(int argc, char **argv, Options *o) {
         else if (word == "-s" && number(argv[i], 0.001, &o->rates.spindle)) continue;
         else if (word == "-v" && number(argv[i], 1e-9, &o->rates.max_velocity)) continue;
         else if (word == "-t" && number(argv[i], 0, &o->rates.tool_change_s)) continue;
+        else if (word == "-a" && number(argv[i], 0, &o->rates.s_per_rpm)) continue;
+        else if (word == "-u" && number(argv[i], 0, &o->rates.user_code_s)) continue;
         else if (word == "-c" && number(argv[i], 0, &o->cpu_s)) continue;
         else if (word == "-b" && number(argv[i], 0, &block)) o->block_delete = block != 0;
         else return false;
@@ -151,6 +154,8 @@ int run(const Options &o, const linuxcnc::IniFile &ini, const EMC_STAT &now) {
     time.drain();
     if (why.empty()) why = time.failed();
     if (why.empty() && result == DryRun::Result::failed) why = dry.error();
+    const Waits &w = time.waits();
+    printf("waits %d %d %d %d %d\n", w.tool_changes, w.spindle_starts, w.user_codes, w.inputs, w.stops);
     if (why.empty()) printf("end %.3f\n", time.seconds());
     else printf("stopped %.3f %s\n", time.seconds(), why.c_str());
     return 0;

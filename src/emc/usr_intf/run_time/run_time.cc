@@ -92,6 +92,7 @@ AxisLimits axis_limits(const linuxcnc::IniFile &ini) {
 struct RunTime::Planner : Paper {
     TP_STRUCT tp{};
     double dt = 0.001;
+    double at_speed_s[EMCMOT_MAX_SPINDLES] = {}; // when each spindle has run up
     // Moves on their way: number and line; the planner's id of a move is its number.
     std::deque<std::pair<long, int>> under_way;
     ~Planner() { std::free(tp.impl); }
@@ -131,7 +132,9 @@ RunTime::RunTime(const EMC_STAT &stat, const linuxcnc::IniFile &ini, const Rates
 RunTime::~RunTime() { paper = nullptr; }
 
 void RunTime::restart() {
+    for (double &s : planner_->at_speed_s) s = 0;
     seconds_ = 0;
+    waits_ = {};
     number_ = shown_ = 0;
     planner_->under_way.clear();
 }
@@ -140,6 +143,8 @@ void RunTime::spindle(int which, double speed, double factor, double xoffset) {
     for (int n = 0; n < spindles_; n++) {
         if (which >= 0 && which != n) continue;
         spindle_status_t &s = planner_->status.spindle_status[n];
+        if (speed != 0 && speed != s.speed) waits_.spindle_starts++;
+        planner_->at_speed_s[n] = std::max(seconds_, planner_->at_speed_s[n]) + std::fabs(speed - s.speed) * rates_.s_per_rpm;
         s.speed = speed;
         s.css_factor = factor;
         s.xoffset = xoffset;
@@ -163,6 +168,7 @@ void RunTime::cycle() {
             rpm = std::clamp(radius > 0 ? sp.css_factor / radius : sp.speed, -most, most);
         }
         sp.spindleSpeedIn = rpm / 60;
+        sp.at_speed = seconds_ >= p.at_speed_s[n];
         const double before = sp.spindleRevs;
         sp.spindleRevs += sp.spindleSpeedIn * p.dt;
         if (sp.spindle_index_enable && std::floor(sp.spindleRevs) != std::floor(before)) {
@@ -204,6 +210,14 @@ void RunTime::stop_and_wait(double seconds) {
     seconds_ += seconds + (moved ? SETTLE_CYCLES * planner_->dt + task_cycle_ : 0);
 }
 
+// Whether a move waits for the spindles, as motion decides it.
+int RunTime::take_at_speed(int type) {
+    int &next = planner_->status.atspeed_next_feed;
+    const int waits = type == EMC_MOTION_TYPE_FEED || type == EMC_MOTION_TYPE_ARC || type == EMC_MOTION_TYPE_PROBING ? next : 0;
+    next = waits ? 0 : next;
+    return waits;
+}
+
 void RunTime::move(int line, const NMLmsg &m) {
     Planner &p = *planner_;
     double since = seconds_;
@@ -218,13 +232,14 @@ void RunTime::move(int line, const NMLmsg &m) {
     int r = 0;
     if (m._type == EMC_TRAJ_LINEAR_MOVE_TYPE) {
         const auto &l = as<EMC_TRAJ_LINEAR_MOVE>(m);
-        r = tpAddLine(&p.tp, l.end, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables, 0, -1, l.tag);
+        r = tpAddLine(&p.tp, l.end, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables, static_cast<char>(take_at_speed(l.type)), -1, l.tag);
     } else if (m._type == EMC_TRAJ_CIRCULAR_MOVE_TYPE) {
         const auto &c = as<EMC_TRAJ_CIRCULAR_MOVE>(m);
-        r = tpAddCircle(&p.tp, c.end, c.center, c.normal, c.turn, c.type, c.vel, c.ini_maxvel, c.acc, c.ini_maxjerk, enables, 0, c.tag);
+        r = tpAddCircle(&p.tp, c.end, c.center, c.normal, c.turn, c.type, c.vel, c.ini_maxvel, c.acc, c.ini_maxjerk, enables,
+                        static_cast<char>(take_at_speed(c.type)), c.tag);
     } else if (m._type == EMC_TRAJ_PROBE_TYPE) {
         const auto &l = as<EMC_TRAJ_PROBE>(m);
-        r = tpAddLine(&p.tp, l.pos, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables, 0, -1, l.tag);
+        r = tpAddLine(&p.tp, l.pos, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables, static_cast<char>(take_at_speed(l.type)), -1, l.tag);
     } else {
         const auto &t = as<EMC_TRAJ_RIGID_TAP>(m);
         r = tpAddRigidTap(&p.tp, t.pos, t.vel, t.ini_maxvel, t.acc, t.ini_maxjerk, enables, t.scale, t.tag);
@@ -270,7 +285,13 @@ void RunTime::take(const InterpList::Entry *order) {
     case EMC_TRAJ_SET_FO_ENABLE_TYPE: return flag(FS_ENABLED, as<EMC_TRAJ_SET_FO_ENABLE>(m).mode);
     case EMC_TRAJ_SET_SO_ENABLE_TYPE: return flag(SS_ENABLED, as<EMC_TRAJ_SET_SO_ENABLE>(m).mode);
     case EMC_TRAJ_DELAY_TYPE: return stop_and_wait(as<EMC_TRAJ_DELAY>(m).delay);
-    case EMC_TOOL_LOAD_TYPE: return stop_and_wait(rates_.tool_change_s);
+    case EMC_TOOL_LOAD_TYPE: waits_.tool_changes++; return stop_and_wait(rates_.tool_change_s);
+    case EMC_SYSTEM_CMD_TYPE: waits_.user_codes++; return stop_and_wait(rates_.user_code_s);
+    case EMC_AUX_INPUT_WAIT_TYPE:
+        if (as<EMC_AUX_INPUT_WAIT>(m).wait_type != WAIT_MODE_IMMEDIATE) waits_.inputs++;
+        return stop_and_wait(0);
+    case EMC_TASK_PLAN_PAUSE_TYPE:
+    case EMC_TASK_PLAN_OPTIONAL_STOP_TYPE: waits_.stops++; return stop_and_wait(0);
     case EMC_COOLANT_MIST_ON_TYPE: return coolant(mist_, 1);
     case EMC_COOLANT_MIST_OFF_TYPE: return coolant(mist_, 0);
     case EMC_COOLANT_FLOOD_ON_TYPE: return coolant(flood_, 1);
@@ -280,6 +301,7 @@ void RunTime::take(const InterpList::Entry *order) {
             const auto &o = as<EMC_SPINDLE_ON>(m);
             const int n = std::clamp(o.spindle, 0, spindles_ - 1);
             if (o.factor != 0 || s.spindle_status[n].speed != o.speed) stop_and_wait(0);
+            s.atspeed_next_feed = last_wait_ = o.wait_for_spindle_at_speed;
             return spindle(o.spindle, o.speed, o.factor, o.xoffset);
         }
     case EMC_SPINDLE_SPEED_TYPE:
@@ -287,10 +309,12 @@ void RunTime::take(const InterpList::Entry *order) {
             const auto &o = as<EMC_SPINDLE_SPEED>(m);
             const int n = std::clamp(o.spindle, 0, spindles_ - 1);
             if (o.factor != 0 || s.spindle_status[n].speed != o.speed) stop_and_wait(0);
+            s.atspeed_next_feed = last_wait_;
             return spindle(o.spindle, o.speed, o.factor, o.xoffset);
         }
     case EMC_SPINDLE_OFF_TYPE:
         stop_and_wait(0);
+        s.atspeed_next_feed = last_wait_; // as task tells motion
         return spindle(as<EMC_SPINDLE_OFF>(m).spindle, 0, 0, 0);
     case EMC_MOTION_SET_AOUT_TYPE:
         if (as<EMC_MOTION_SET_AOUT>(m).now) stop_and_wait(0);

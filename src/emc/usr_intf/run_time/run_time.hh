@@ -26,6 +26,14 @@ struct Rates {
     double feed = 1, rapid = 1, spindle = 1; // overrides
     double max_velocity = 1e99;              // machine units a second
     double tool_change_s = 0;                // what a tool change takes beside its moves
+    double s_per_rpm = 0;                    // of a spindle's change of speed
+    double user_code_s = 0;                  // a program of an M1xx code
+};
+
+// What a program waits for beside its moves, counted.
+struct Waits {
+    int tool_changes = 0, spindle_starts = 0, user_codes = 0;
+    int inputs = 0, stops = 0;               // M66 with a wait; M0, M1, M60: no time is known
 };
 
 class RunTime {
@@ -40,7 +48,8 @@ public:
     // To the end of what was given.
     void drain();
     double seconds() const { return seconds_; }
-    // From now on seconds and moves count.
+    const Waits &waits() const { return waits_; }
+    // From now on seconds, moves and waits count.
     void restart();
     // Why the time is not known further; empty: it is.
     const std::string &failed() const { return failed_; }
@@ -48,6 +57,7 @@ public:
 private:
     struct Planner;
     void move(int line, const NMLmsg &m);
+    int take_at_speed(int type);
     void spindle(int which, double speed, double factor, double xoffset);
     void cycle();
     void stop_and_wait(double seconds);
@@ -55,8 +65,10 @@ private:
 
     std::unique_ptr<Planner> planner_;
     Rates rates_;
+    Waits waits_;
     double seconds_ = 0, task_cycle_ = 0.001;
     long number_ = 0, shown_ = 0;
+    int last_wait_ = 1; // whether a spindle's order lets the next feed wait
     int mist_ = 0, flood_ = 0, spindles_ = 1, pending_type_ = 0;
     std::string failed_;
 };
