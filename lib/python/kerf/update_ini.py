@@ -12,6 +12,7 @@ import os
 import re
 import shutil
 import sys
+from datetime import datetime
 from pathlib import Path
 
 CANCELLED = 42
@@ -27,6 +28,8 @@ JOINT_PINS = ("active amp-enable-out amp-fault-in backlash-corr backlash-filt ba
               "kb-jog-active motor-offset motor-pos-cmd motor-pos-fb neg-hard-limit neg-lim-sw-in pos-hard-limit "
               "pos-lim-sw-in unlock wheel-jog-active")
 JOINT_RENAMES = {"joint-pos-cmd": "pos-cmd", "joint-pos-fb": "pos-fb", "joint-vel-cmd": "vel-cmd"}
+TRAJ_RENAMES = {"MAX_VELOCITY": "MAX_LINEAR_VELOCITY", "DEFAULT_VELOCITY": "DEFAULT_LINEAR_VELOCITY",
+                "MAX_ACCELERATION": "MAX_LINEAR_ACCELERATION", "DEFAULT_ACCELERATION": "DEFAULT_LINEAR_ACCELERATION"}
 AXIS_ITEMS = ("MIN_LIMIT", "MAX_LIMIT", "MAX_VELOCITY", "MAX_ACCELERATION")
 ORDER = ("EMC", "DISPLAY", "FILTER", "RS274NGC", "EMCMOT", "TASK", "HAL", "HALUI", "TRAJ", "EMCIO")
 
@@ -110,6 +113,8 @@ class OldConfig:
 
     def gantry_letters(self):
         """Letters of gantrykins.joint-N, or "" on other machines."""
+        if not re.search(r"^\s*loadrt\s+gantrykins\b", self.hal, re.M):
+            return ""
         found = dict(re.findall(r"^\s*setp\s+gantrykins\.joint-(\d)\s+(\w)", self.hal, re.M))
         return "".join(found[k].upper() if not found[k].isdigit() else LETTERS[int(found[k])] for k in sorted(found))
 
@@ -119,7 +124,7 @@ class OldConfig:
         if name == "gantrykins":
             return f"trivkins coordinates={self.tandem or self.letters} kinstype=BOTH"
         if name in ("gentrivkins", "trivkins"):
-            return "trivkins" if self.letters == "XYZ" else f"trivkins coordinates={self.letters}"
+            return f"trivkins coordinates={self.letters}"
         return name
 
     def rs274ngc(self):
@@ -135,16 +140,14 @@ class OldConfig:
 
     def traj(self):
         lines = without(self.sections.get("TRAJ", []), "AXES", "CYCLE_TIME", "COORDINATES")
-        for old, new in (("MAX_VELOCITY", "MAX_LINEAR_VELOCITY"), ("DEFAULT_VELOCITY", "DEFAULT_LINEAR_VELOCITY"),
-                         ("MAX_ACCELERATION", "MAX_LINEAR_ACCELERATION"),
-                         ("DEFAULT_ACCELERATION", "DEFAULT_LINEAR_ACCELERATION")):
+        for old, new in TRAJ_RENAMES.items():
             lines = renamed(lines, old, new)
         if value(lines, "MAX_LINEAR_VELOCITY") is None:
             fastest = max((float(v) for n in self.numbers
                            for v in values(self.sections.get(f"AXIS_{n}"), "MAX_VELOCITY")), default=1.0)
             lines.append(f"MAX_LINEAR_VELOCITY = {fastest:g}")
         lines = unit_words(lines)
-        return [f"COORDINATES = {' '.join(self.letters)}"] + lines
+        return [f"COORDINATES = {self.letters}"] + lines
 
     def joint(self, number):
         lines = [re.sub(r"^(\s*HOME_SEQUENCE\s*=\s*)-1\s*$", r"# \1-1", line)
@@ -155,7 +158,7 @@ class OldConfig:
         return lines
 
     def text(self, backup):
-        out = ["# This config file was created by the update_ini script",
+        out = [f"# This config file was created {datetime.now():%Y-%m-%d %H:%M:%S} by the update_ini script",
                f"# The original config files may be found in the {backup} directory"] + self.head
         emc = without(self.sections.get("EMC", []), "VERSION")
         parts = dict(self.sections, EMC=["VERSION = 1.1"] + emc, RS274NGC=self.rs274ngc(), TRAJ=self.traj(),
@@ -170,15 +173,15 @@ class OldConfig:
         for letter, number in zip(self.letters, self.numbers):
             old = self.sections.get(f"AXIS_{number}", [])
             if letter not in seen:
-                out.append(f"[AXIS_{letter}]")
+                out += ["", f"[AXIS_{letter}]"] if out[-1].strip() else [f"[AXIS_{letter}]"]
                 out += [f"{item} = {value(old, item)}" for item in AXIS_ITEMS if value(old, item) is not None]
                 if value(old, "LOCKING_INDEXER") is not None:
                     out.append(f"LOCKING_INDEXER_JOINT = {self.numbers.index(number)}")
                 out.append("")
                 seen.add(letter)
-        for index, number in enumerate(self.numbers):
-            out += [f"[JOINT_{index}]"] + self.joint(number)
-            done.add(f"AXIS_{number}")
+                for index in (i for i, c in enumerate(self.letters) if c == letter):
+                    out += [f"[JOINT_{index}]"] + self.joint(self.numbers[index])
+                    done.add(f"AXIS_{self.numbers[index]}")
         for name, lines in self.sections.items():
             if name not in done and name != "KINS" and not re.fullmatch(r"AXIS_\d", name):
                 out += [f"[{name}]"] + lines
@@ -191,22 +194,31 @@ class OldConfig:
                 text = re.sub(rf"\baxis\.{number}\.{pin}(?![\w-])",
                               f"joint.{index}.{JOINT_RENAMES.get(pin, pin)}", text)
             letter = self.letters[index].lower()
-            for pin in ("jog-counts", "jog-enable", "jog-scale", "jog-vel-mode"):
-                pattern = rf"\baxis\.{number}\.{pin}(?![\w-])"
-                lines = []
-                for line in text.splitlines(keepends=True):
-                    if re.search(pattern, line):
-                        joint = re.sub(pattern, f"joint.{index}.{pin}", line)
-                        axis = re.sub(pattern, f"axis.{letter}.{pin}", line)
-                        lines.append(joint)
-                        lines.append(axis if axis.endswith("\n") else "\n" + axis)
-                    else:
-                        lines.append(line)
-                text = "".join(lines)
-            text = re.sub(rf"\bhalui\.jog\.{number}\.", f"halui.axis.{letter}.", text)
+            lines = []
+            for line in text.splitlines(keepends=True):
+                # `net` takes both pins, other commands come twice
+                joint, axis = f"joint.{index}.jog-", f"axis.{letter}.jog-"
+                wheel = rf"\baxis\.{number}\.jog-(counts|enable|scale|vel-mode)(?![\w-])"
+                if not re.search(wheel, line):
+                    lines.append(line)
+                elif re.match(r"\s*net\s", line):
+                    lines.append(re.sub(wheel, rf"{joint}\1 {axis}\1", line))
+                else:
+                    lines += [re.sub(wheel, rf"{joint}\1", line.rstrip("\n") + "\n"), re.sub(wheel, rf"{axis}\1", line)]
+            text = "".join(lines)
+            text = re.sub(rf"\bhalui\.(?:jog|axis)\.{number}\.", f"halui.axis.{letter}.", text)
+            text = re.sub(rf"\bhalui\.joint\.{number}\.((?:is-)?select(?:ed)?)(?![\w-])", rf"halui.axis.{letter}.\1", text)
+        # at once: [AXIS_2] may become [JOINT_1]
+        text = re.sub(r"(\[|\$::|\$)AXIS_(\d)(?=[\](])",
+                      lambda m: f"{m[1]}JOINT_{self.numbers.index(int(m[2]))}" if int(m[2]) in self.numbers else m[0], text)
+        for old, new in TRAJ_RENAMES.items():
+            text = re.sub(rf"(\[TRAJ\]\(?|\$(?:::)?TRAJ\(){old}\b", rf"\g<1>{new}", text)
+        text = re.sub(r"\bhalui\.jog\.selected\.", "halui.axis.selected.", text)
+        text = re.sub(r"\bhalui\.jog-(speed|deadband)(?![\w-])", r"halui.axis.jog-\1", text)
         text = re.sub(r"^(\s*)loadrt\s+(\w*kins\w*)(.*)$", r"\1loadrt [KINS]KINEMATICS\n#autoconverted \2\3", text,
                       count=1, flags=re.M)
-        text = text.replace("num_joints=[TRAJ]AXES", "num_joints=[KINS]JOINTS")
+        text = re.sub(r"\[TRAJ\](\(?)AXES\b", r"[KINS]\1JOINTS", text)
+        text = re.sub(r"\$(::)?TRAJ\(AXES\)", r"$\1KINS(JOINTS)", text)
         text = re.sub(r"\bshuttle(?:xpress|pro)\b", "shuttle", text)
         text = re.sub(r"^(\s*setp\s+gantrykins\.)", r"#\1", text, flags=re.M)
         return rename_spindle_pins(text)

@@ -6,9 +6,9 @@ printf 'net s motion.spindle-speed-out => pid.command\nnet f halui.spindle.forwa
 echo y | (cd "$out" && update_ini a.ini) | sed "s|$out|DIR|"
 cat "$out/a.ini" "$out/a.hal"; ls "$out/a.old"
 printf '[EMC]\nVERSION = $Revision$\n[TRAJ]\nAXES = 2\nCOORDINATES = X Z\nMAX_VELOCITY = 3\n[RS274NGC]\nFEATURES = 12\n[HAL]\nHALFILE = b.hal\n[AXIS_0]\nMIN_LIMIT = -1\nMAX_VELOCITY = 2\nHOME_SEQUENCE = -1\n[AXIS_2]\nMIN_LIMIT = -2\n[MINE]\nA = 1\n' > "$out/b.ini"
-printf 'loadrt trivkins\nloadrt motmod num_joints=[TRAJ]AXES\nnet x axis.0.motor-pos-cmd\nnet z axis.2.joint-pos-cmd\nsetp axis.2.jog-scale 1\n' > "$out/b.hal"
+printf 'loadrt trivkins\nloadrt motmod num_joints=[TRAJ]AXES\nnet x axis.0.motor-pos-cmd\nnet z axis.2.joint-pos-cmd\nsetp axis.2.jog-scale 1\nnet w axis.0.jog-counts <= mpg.counts\nsetp pid.maxout [AXIS_2](MAX_OUTPUT)\nsetp scale.0.gain [TRAJ]MAX_VELOCITY\nnet j halui.jog.2.plus halui.joint.2.select halui.jog.selected.minus\nnet s halui.jog-speed halui.axis.0.pos-feedback\n' > "$out/b.hal"
 (cd "$out" && update_ini -f b.ini); ls "$out"
-cat "$out/b.ini" "$out/b.hal"
+sed "s/created .* by/created DATE by/" "$out/b.ini"; cat "$out/b.hal"
 (cd "$out" && update_ini b.ini)
 echo "status $?"
 printf '[EMC]\nVERSION = 1.0\n' > "$out/c.ini"
