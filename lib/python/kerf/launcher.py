@@ -107,6 +107,21 @@ def last_config():
         return None
 
 
+def interpreter_of(program, env):
+    """The program that the script's first line asks for, in words for a message; "": no script."""
+    try:
+        with open(shutil.which(program, path=env["PATH"]), "rb") as f:
+            first = f.readline(200).decode(errors="replace").strip()
+    except (OSError, TypeError):
+        return ""
+    return f"; its first line asks for {first[2:].strip()}" if first.startswith("#!") else ""
+
+
+def ended(returncode):
+    """How a program ended, in words."""
+    return f"ended with status {returncode}" if returncode > 0 else f"was ended by signal {-returncode} ({signal.Signals(-returncode).name})"
+
+
 def status_of(returncode):
     """Shell-like exit status of a subprocess."""
     return 128 - returncode if returncode < 0 else returncode
@@ -234,6 +249,10 @@ class Session:
 
     def need_program(self, name, message):
         if not shutil.which(name, path=self.env["PATH"]):
+            if shutil.which(name, mode=os.F_OK, path=self.env["PATH"]):
+                message += f"\n{name} is not executable: chmod +x {name}"
+            elif "/" not in name and os.path.exists(name):
+                message += f"\n{name} is in the folder of the INI file, which is not searched: write ./{name}"
             raise Failure(message)
 
     # -- start -----------------------------------------------------------------------------
@@ -246,6 +265,7 @@ class Session:
             raise Failure("E: The INI-file contains errors that need to be fixed.") from None
         sys.stderr.write(self.ini.messages)
         if not self.ini.sections:
+            print(f"{self.ini_path}: no setting in it", file=sys.stderr)
             raise Failure("E: The INI-file contains errors that need to be fixed.")
         if not self.options.test_mode:
             print(f"Machine configuration directory is '{os.path.dirname(self.ini_path)}'")
@@ -257,9 +277,13 @@ class Session:
             raise Failure("linuxcnc_check_ini validation failed")
 
     def update_ini(self):
+        version = self.ini.get("EMC", "VERSION") or "0.0"
+        if version > "1.1" and version[0].isdigit():    # update_ini leaves those alone
+            print(f"{self.ini_path}: [EMC]VERSION = {version} is newer than 1.1, the newest that is known: started as it is", file=sys.stderr)
+            return
         if not os.environ.get("DISPLAY"):       # nobody to ask: the backup keeps the old files
             from . import update_ini
-            backup = update_ini.convert(Path(self.ini_path), self.ini.get("EMC", "VERSION", "0.0"))
+            backup = update_ini.convert(Path(self.ini_path), version)
             print(f"{self.ini_path}: updated to version 1.1; the old files are in {backup}", flush=True)
             self.ini = IniValues(self.ini_path, self.env)
             return
@@ -355,9 +379,12 @@ class Session:
             raise Failure(f"TASK program {self.task} did not start: see its messages above")
         if self.halui:
             self.need_program(self.halui.split()[0], f"Can't execute halui program {self.halui}")
-            self.run(*self.halcmd, "loadusr", "-Wn", "halui", *self.halui.split(), "-ini", self.ini_path)
+            if self.run(*self.halcmd, "loadusr", "-Wn", "halui", *self.halui.split(), "-ini", self.ini_path):
+                raise Failure(f"halui program {self.halui} did not start: see its messages above")
         if self.halbridge:
-            self.run(*self.halcmd, "loadusr", "-Wn", "bridge", *self.halbridge.split())
+            self.need_program(self.halbridge.split()[0], f"Can't execute bridge program {self.halbridge}")
+            if self.run(*self.halcmd, "loadusr", "-Wn", "bridge", *self.halbridge.split()):
+                raise Failure(f"Bridge program {self.halbridge} did not start: see its messages above")
         self.load_hal()
         if self.options.try_only:
             return 1 if self.hal_failed else 0
@@ -474,6 +501,8 @@ class Session:
                 return False
         if not clock.wait_until(ready, READY_WAIT_S):
             print(f"ini.traj_max_velocity still 0.0 after {time.monotonic() - begun:.0f} seconds")
+            if not self.output("halcmd", "list", "pin", "motion.motion-enabled"):
+                print(f"{self.ini_path}: no motion module is loaded: a [HAL]HALFILE has to hold `loadrt [EMCMOT]EMCMOT ...`", file=sys.stderr)
 
     def watch(self):
         """Remembers the programs that must not end: without most of them the machine cannot go on."""
@@ -500,7 +529,10 @@ class Session:
 
     def run_display(self):
         command = self.display_command()
-        self.display = clock.spawn(command, "display", env=self.env | {SESSION + DISPLAY_PART: self.id})
+        try:
+            self.display = clock.spawn(command, "display", env=self.env | {SESSION + DISPLAY_PART: self.id})
+        except OSError as e:
+            raise Failure(f"Can't execute DISPLAY program {command[0]}: {e.strerror}{interpreter_of(command[0], self.env)}") from None
         clock.suspend()
         ends, descriptors = select.poll(), {}    # a process descriptor is readable when the process has ended
         for pid in [self.display.pid, *self.watched]:
@@ -512,6 +544,8 @@ class Session:
         while True:
             status = self.display.poll()
             if status is not None:
+                if status:
+                    print(f"DISPLAY program {command[0]} {ended(status)}", file=sys.stderr)
                 return status_of(status)
             for pid, name in list(self.watched.items()):
                 if lives(pid):
@@ -533,8 +567,7 @@ class Session:
         if program == "dummy":
             print("DUMMY DISPLAY MODULE, press <ENTER> to continue.", flush=True)
             return ["sh", "-c", "read line || :"]
-        if not shutil.which(program, path=self.env["PATH"]):
-            raise Failure(f"Can't execute DISPLAY program {' '.join([program] + extra)}")
+        self.need_program(program, f"Can't execute DISPLAY program {' '.join([program] + extra)}")
         if program == "linuxcncrsh":
             return [program] + extra + ["--", "-ini", self.ini_path]
         return [program, "-ini", self.ini_path] + extra

@@ -282,8 +282,11 @@ def convert(path, version):
     files = hal_files(path.parent, sections)
     backup = backup_of(path.parent, path.stem)
     texts = {f: f.read_text(errors="surrogateescape") for f in files}
-    if version == "1.0":
-        replace(path, re.sub(r"(?m)^(\s*VERSION\s*=\s*)1\.0\s*$", r"\g<1>1.1", text, count=1))
+    if version == "1.0" or "KINS" in sections and "JOINT_0" in sections:    # joints and axes are told apart already
+        known = value(sections.get("EMC"), "VERSION") is not None
+        head = r"(?m)(^\s*\[\s*EMC\s*\][^\[]*?^\s*VERSION\s*=\s*).*$" if known else r"(?m)^(\s*\[\s*EMC\s*\].*\n)"
+        changed, count = re.subn(head, r"\g<1>1.1" if known else r"\g<1>VERSION = 1.1\n", text, count=1)
+        replace(path, changed if count else "[EMC]\nVERSION = 1.1\n" + text)
         for f, old in texts.items():
             replace(f, rename_spindle_pins(old))
     else:

@@ -278,7 +278,10 @@ bool Parser::include(std::string_view rest)
         return error("Include file recursion on loading '%s'", name.c_str());
     if (stack.size() + 1 >= MAX_INCLUDE_STACK)
         return error("Maximum include depth (%zu) reached on loading '%s'", MAX_INCLUDE_STACK, name.c_str());
-    return parse_file(name);
+    const size_t depth = stack.size();
+    if (parse_file(name)) return true;
+    if (stack.size() == depth) report("%s:%d: error: it is included here", stack.back().c_str(), lines.back()); // never opened
+    return false;
 }
 
 // Older configurations have names such as start-pause, 4th or home.x: they are taken, with a warning.

@@ -100,11 +100,20 @@ int load_parameters(Setup &s)
 {
     s.parameter_file_bad = false;
     for (double &v : s.parameters) v = 0;
-    if (s.parameter_file.empty()) return INTERP_OK;
+    if (s.parameter_file.empty()) {
+        CHECK(s.options.task, "Parameter file name is missing");
+        return INTERP_OK;
+    }
     FILE *f = fopen(s.parameter_file.c_str(), "re");
     if (!f) {
         CHECK(errno != ENOENT, "Unable to open parameter file: '%s'", s.parameter_file.c_str());
         return INTERP_OK;
+    }
+    struct stat st;
+    if (fstat(fileno(f), &st) == 0 && S_ISDIR(st.st_mode)) {
+        fclose(f);
+        s.parameter_file_bad = true;
+        FAIL("Unable to open parameter file: '%s'", s.parameter_file.c_str());
     }
     std::vector<double> loaded(s.parameters.size(), 0.0);
     const char *why = nullptr;

@@ -391,6 +391,7 @@ int Task::plan_init() {
     int r = interp_->init(interp_options());
     if (r > INTERP_MIN_ERROR) {
         operator_error(interp_->error_text(r));
+        if (!interp_->fault().file.empty()) rcs_print_error("%s\n", interp_->fault().report().c_str());
         return r;
     }
     if (auto code = ini_.findString("RS274NGC_STARTUP_CODE", "RS274NGC"); code && !code->empty() && code->size() < LINELEN) {
