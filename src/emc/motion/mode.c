@@ -120,6 +120,7 @@ static void disable(struct motion *m)
 
 static void enable(struct motion *m)
 {
+    m->status->stop_causes = 0;
     if (m->eoffset_limited) {
         report_error("Note: Motion enabled after reaching a coordinate soft limit with active external offsets");
         m->eoffset_limited = 0;
@@ -274,11 +275,17 @@ void phase_mode(struct motion *m)
 
 /* ---- faults ---- */
 
+static void stop_by(struct motion *m, enum emcmot_stop_cause cause)
+{
+    m->internal->enabling = 0;
+    m->status->stop_causes |= cause;
+}
+
 /* The joint's fault stops the machine; 1: to be told, as the first one of the joint. */
-static int joint_fault(struct motion *m, emcmot_joint_t *jt, int *faults)
+static int joint_fault(struct motion *m, emcmot_joint_t *jt, enum emcmot_stop_cause cause, int *faults)
 {
     set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 1);
-    m->internal->enabling = 0;
+    stop_by(m, cause);
     return (*faults)++ == 0;
 }
 
@@ -292,15 +299,15 @@ static void joint_faults(struct motion *m, int j)
     int high = joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) && !(overridden & 2);
     int low = joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT) && !(overridden & 1);
     /* the text for the operator, then what was measured for the log */
-    if (!get_homing(j) && (high || low) && joint_fault(m, jt, &faults)) {
+    if (!get_homing(j) && (high || low) && joint_fault(m, jt, EMCMOT_STOP_LIMIT, &faults)) {
         report_error("joint %d on limit switch error", j);
         rtapi_print("motion: joint %d: %s limit switch at position %.5f\n", j, high ? "positive" : "negative", jt->pos_fb);
     }
-    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt, &faults)) {
+    if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt, EMCMOT_STOP_AMPLIFIER, &faults)) {
         report_error("joint %d amplifier fault", j);
         rtapi_print("motion: joint %d: amplifier fault at position %.5f\n", j, jt->pos_fb);
     }
-    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt, &faults)) {
+    if (joint_flag(jt, EMCMOT_JOINT_FERROR_BIT) && joint_fault(m, jt, EMCMOT_STOP_FOLLOWING, &faults)) {
         report_error("joint %d following error", j);
         rtapi_print("motion: joint %d: following error %.5f, limit %.5f at velocity %.5f\n", j, jt->ferror,
                     jt->ferror_limit, jt->vel_cmd);
@@ -312,17 +319,17 @@ void phase_faults(struct motion *m)
     if (is_enabled(m)) {
         if (!hal_get_bool(m->pins->enable)) {
             report_error("motion stopped by enable input");
-            m->internal->enabling = 0;
+            stop_by(m, EMCMOT_STOP_OTHER);
         }
         for (int s = 0; s < m->config_work.numSpindles; s++)
             if (m->status->spindle_status[s].fault) {
                 report_error("spindle %d amplifier fault", s);
-                m->internal->enabling = 0;
+                stop_by(m, EMCMOT_STOP_OTHER);
             }
         for (int i = 0; i < m->config_work.numMiscError; i++)
             if (m->status->misc_error[i]) {
                 report_error("Motion Stopped by misc error %d", i);
-                m->internal->enabling = 0;
+                stop_by(m, EMCMOT_STOP_OTHER);
             }
     }
     for (int j = 0; j < all_joints(m); j++)

@@ -311,6 +311,14 @@ enum override_cause {
     EMCMOT_OVERRIDE_OFFSETS       /* external offsets need the room */
 };
 
+/* What switched motion off, bits; kept until it is enabled again. */
+enum emcmot_stop_cause {
+    EMCMOT_STOP_LIMIT = 1,     /* a joint's limit switch */
+    EMCMOT_STOP_AMPLIFIER = 2, /* joint.N.amp-fault-in */
+    EMCMOT_STOP_FOLLOWING = 4, /* following error: its position is lost */
+    EMCMOT_STOP_OTHER = 8      /* enable input, spindle, misc error */
+};
+
 typedef struct emcmot_status {
     unsigned int head; /* written first; head != tail: being written */
     cmd_code_t commandEcho;
@@ -340,6 +348,7 @@ typedef struct emcmot_status {
     spindle_status_t spindle_status[EMCMOT_MAX_SPINDLES];
 
     int on_soft_limit;
+    int stop_causes; /* EMCMOT_STOP_* */
     int probeVal, probeTripped, probing;
     unsigned char probe_type;
     EmcPose probedPos;

@@ -599,6 +599,7 @@ void MotionLink::update(std::string *error) {
     t.maxAcceleration = max_traj_acceleration;
     t.probedPosition = s.probedPos;
     t.probe_tripped = s.probeTripped;
+    stop_causes_ = s.stop_causes;
     t.probing = s.probing;
     t.probeval = s.probeVal;
     t.distance_to_go = s.distance_to_go;

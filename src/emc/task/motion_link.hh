@@ -26,6 +26,8 @@ public:
     // True once something answers at the other end (a servo cycle was seen).
     bool alive();
 
+    int stop_causes() const { return stop_causes_; } // EMCMOT_STOP_*: what switched motion off
+
     // Sends a command with the id of the line under way.
     int send(emcmot_command_t &c);
     int send(cmd_code_t code);
@@ -132,6 +134,7 @@ private:
     emcmot_config_t config_{};
     int id_ = 0, config_num_ = -1;
     bool attached_ = false;
+    int stop_causes_ = 0;
     bool settling_ = false;          // a move was given that the status does not show yet
     uint64_t settle_from_ = 0;
     bool joint_error_shown_[EMCMOT_MAX_JOINTS] = {};

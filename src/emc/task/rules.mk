@@ -2,7 +2,7 @@
 TASK_FLAGS := -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task
 EMC_CLIENT_SOURCES := src/emc/nml/messages.cc src/emc/nml/emc_args.cc
 $(eval $(call program,milltask,$(addprefix src/emc/task/,main.cc task.cc task_plan.cc task_execute.cc task_restore.cc dry_run.cc accept.cc control.cc jog_owners.cc journal.cc task_canon.cc \
-    task_canon_curves.cc motion_link.cc ini_settings.cc io_control.cc user_codes.cc) src/emc/canon/hal_number.cc src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c $(EMC_CLIENT_SOURCES), \
+    task_canon_curves.cc motion_link.cc ini_settings.cc io_control.cc user_codes.cc fault_stop.cc) src/emc/canon/hal_number.cc src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c $(EMC_CLIENT_SOURCES), \
     nml linuxcncini rs274 tooldata linuxcnchal,$(TASK_FLAGS)))
 $(eval $(call program,linuxcncsvr,src/emc/task/linuxcncsvr.cc $(EMC_CLIENT_SOURCES),nml linuxcncini linuxcnchal,$(TASK_FLAGS)))
 $(eval $(call program,kerf-safe-stop,src/emc/task/safe_stop.cc src/emc/motion/usr/usrmotintf.c src/emc/motion/emcmotutil.c $(EMC_CLIENT_SOURCES),nml linuxcncini linuxcnchal,$(TASK_FLAGS)))

@@ -126,6 +126,7 @@ bool Task::start() {
     if (int n = ini_.findIntV("INTERP_MAX_LEN", "TASK", 1000); n > 0) interp_max_len_ = static_cast<size_t>(n);
     if (int n = ini_.findIntV("MDI_QUEUE", "TASK", -1); n >= 0) mdi_queue_max_ = static_cast<size_t>(n);
     run_from_line_restores_ = strcasecmp(ini_.findStringV("RUN_FROM_LINE", "TASK", "").c_str(), "restore") == 0;
+    if (!fault_stop_.load(ini_)) return false;
     if (auto text = ini_.findString("IO_ERROR", "TASK")) {
         if (takes_one_integer(*text)) io_error_ = *text;
         else rcs_print_error("[TASK]IO_ERROR: '%s' may hold one %%d and no other %%; not used\n", text->c_str());
@@ -283,6 +284,7 @@ void Task::cycle() {
     watch_estop();
     watch_errors();
     recover();
+    watch_fault_stop();
     watch_program_error();
     watch_jogs();
     watch_control();
@@ -374,7 +376,7 @@ void Task::watch_errors() {
     failed_at(stat_.motion.status == RCS_ERROR && stat_.task.motionLine > 0 ? stat_.task.motionLine : stat_.task.currentLine);
     abort_task();
     io_.abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
-    all_spindles_off();
+    spindles_off_after_fault();
     clear_program();
     on_abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
     synch_later();
@@ -439,7 +441,7 @@ void Task::publish() {
     if (was_on_ && !on) {
         control_.release();
         abort_task();
-        all_spindles_off();
+        spindles_off_after_fault();
         io_.abort(EMC_ABORT_TASK_STATE_NOT_ON);
         on_abort(EMC_ABORT_TASK_STATE_NOT_ON);
     }
@@ -548,7 +550,42 @@ void Task::stop_stepping() {
     stat_.motion.traj.single_stepping = false;
 }
 
+// With the machine off by a fault of a joint they may have to turn until the joints stand.
+void Task::spindles_off_after_fault() {
+    if (stat_.io.aux.estop || !fault_stop_.begin(motion_.stop_causes(), stat_.motion, kerf_clock_now_ns())) all_spindles_off();
+}
+
+void Task::watch_fault_stop() {
+    if (!fault_stop_.waiting()) return;
+    double most[EMCMOT_MAX_JOINTS];
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) most[j] = motion_.joint[j].max_velocity;
+    if (fault_stop_.over(stat_.motion, most, kerf_clock_now_ns())) all_spindles_off();
+}
+
+int Task::joint_on_switch() const {
+    for (int j = 0; j < stat_.motion.traj.joints; j++)
+        if (stat_.motion.joint[j].minHardLimit || stat_.motion.joint[j].maxHardLimit) return j;
+    return -1;
+}
+
+int Task::override_limits(int joint) {
+    const int j = joint_on_switch();
+    if (joint < 0 || j < 0 || fault_stop_.retract() != FaultStop::Retract::NO) return motion_.override_limits(joint);
+    operator_error(("Joint " + std::to_string(j) + " stands on its limit switch, which this machine does not leave under power "
+                    "([TASK]LIMIT_SWITCH_RETRACT = NO): move it by hand").c_str());
+    return -1;
+}
+
+// Before the machine is turned on. False: refused by motion.
+bool Task::leave_limit_switch() {
+    const int j = joint_on_switch();
+    if (j < 0 || fault_stop_.retract() != FaultStop::Retract::AUTO) return true;
+    operator_text(("Joint " + std::to_string(j) + " stands on its limit switch: limits are overridden until the first jog ends").c_str());
+    return motion_.override_limits(j) == 0;
+}
+
 void Task::all_spindles_off() {
+    fault_stop_.end();
     for (int s = 0; s < stat_.motion.traj.spindles; s++) motion_.spindle_off(s);
     if (canon_) canon_->spindle_is(-1, 0); // no S word starts them again
     if (interp_) interp_->outputs_stopped();

@@ -17,6 +17,7 @@
 #include "accept.hh"
 #include "control.hh"
 #include "dry_run.hh"
+#include "fault_stop.hh"
 #include "ini_settings.hh"
 #include "interp.hh"
 #include "interp_list.hh"
@@ -49,6 +50,7 @@ private:
     void watch_enable();
     void watch_estop();
     void watch_errors();
+    void watch_fault_stop();
     void watch_program_error();
     void watch_jogs();
     void watch_control();
@@ -119,6 +121,10 @@ private:
     // ---- stopping ----
     void abort_task();
     void all_spindles_off();
+    void spindles_off_after_fault();
+    bool leave_limit_switch();
+    int override_limits(int joint);
+    int joint_on_switch() const; // -1: none
     void on_abort(int reason, const char *text = "");
     void clear_program();
     void stop_stepping();
@@ -186,6 +192,7 @@ private:
     bool input_watched_ = false, input_armed_ = false;
     EMC_AUX_INPUT_WAIT input_;
     int64_t orient_until_ = 0;
+    FaultStop fault_stop_;
     bool error_stop_due_ = false; // a program ended by an error: its outputs are still on
     int64_t error_stop_at_ = 0;
     std::string program_;        // opened last

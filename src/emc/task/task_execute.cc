@@ -262,7 +262,7 @@ void Task::recover() {
     failed_at(stat_.task.currentLine);
     abort_task();
     io_.abort(EMC_ABORT_TASK_EXEC_ERROR);
-    all_spindles_off();
+    spindles_off_after_fault();
     clear_program();
     stop_stepping();
     on_abort(EMC_ABORT_TASK_EXEC_ERROR);

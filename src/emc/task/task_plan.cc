@@ -154,7 +154,7 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_JOINT_HALT_TYPE: return motion_.jog_stop(as<EMC_JOINT_HALT>(m).joint, 1);
     case EMC_JOINT_HOME_TYPE: return motion_.home(as<EMC_JOINT_HOME>(m).joint);
     case EMC_JOINT_UNHOME_TYPE: return motion_.unhome(as<EMC_JOINT_UNHOME>(m).joint);
-    case EMC_JOINT_OVERRIDE_LIMITS_TYPE: return motion_.override_limits(as<EMC_JOINT_OVERRIDE_LIMITS>(m).joint);
+    case EMC_JOINT_OVERRIDE_LIMITS_TYPE: return override_limits(as<EMC_JOINT_OVERRIDE_LIMITS>(m).joint);
     case EMC_JOINT_LOAD_COMP_TYPE:
         {
             const EMC_JOINT_LOAD_COMP &c = as<EMC_JOINT_LOAD_COMP>(m);
@@ -272,7 +272,8 @@ int Task::set_state(int state) {
     case EMC_TASK_STATE_ON:
         {
             io_.flood(false);
-            if (!stat_.io.aux.estop) return motion_.enable();
+            if (fault_stop_.waiting()) all_spindles_off();
+            if (!stat_.io.aux.estop) return leave_limit_switch() ? motion_.enable() : -1;
             operator_error("The machine stays off: the emergency stop chain is open (iocontrol.0.emc-enable-in)");
             return -1;
         }

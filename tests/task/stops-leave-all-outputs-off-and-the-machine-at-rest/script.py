@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-001, FP-002, FP-009, FP-011, FP-012, FP-118: a program of short segments with spindle, coolant and
+# FP-001, FP-002, FP-009, FP-011, FP-118: a program of short segments with spindle, coolant and
 # a tool change is stopped at 200 instants, running and paused, by abort, machine off and emergency
 # stop. The machine then only comes to rest on its path; nothing is queued, nothing is on, and
 # nothing rises later, not when another program is opened either.
