@@ -107,7 +107,7 @@ bool attach_tools() {
     if (tools == Tools::unknown) {
         tools = tool_mmap_user() == 0 ? Tools::here : Tools::absent;
         if (tools == Tools::absent) {
-            printf("poll(): continuing without tool mmap data\n");
+            printf("tool_mmap_user(): tool mmap not available\npoll(): continuing without tool mmap data\n");
             fflush(stdout);
         }
     }
