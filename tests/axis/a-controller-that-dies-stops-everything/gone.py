@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # VICTIM display: the screen is killed while a jog key is held. VICTIM halui: the other operator's interface is.
 import os
+import re
 import signal
 
 import hal
@@ -49,7 +50,9 @@ def script(op):
     op.key("F5")
     op.type("G0 X1")
     op.idle()
-    print("the screen goes on:", op.position(0) == 1.0, op.messages(), file=out)
+    print("the screen goes on:", op.position(0) == 1.0, file=out)
+    op.until(op.messages, "a message of halui's end", 1e6)       # the launcher sees it within a moment of real time
+    print(re.sub(r"\d+", "N", " ".join(op.messages())), file=out)
     out.close()
     os.rename("../seen.new", "../seen")
 
