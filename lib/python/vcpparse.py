@@ -151,6 +151,7 @@ class Builder:
                 widget.pack(side="top", fill="both", expand="yes")
             else:
                 container.add(widget)
+            pyvcp_widgets.keep_readable(widget, options)
             self.panel.widgets.append(widget)
         inner = [child for child in element.children if child.name in pyvcp_widgets.ELEMENTS]
         if inner and not hasattr(widget, "add"):
@@ -195,6 +196,8 @@ def create_vcp(master, component=None, path=None):
             for widget in builder.panel.widgets:
                 if hasattr(widget, "follow"):
                     widget.follow()
+                if hasattr(widget, "tint"):
+                    widget.tint()
         except (RuntimeError, hal.error) as error:      # the component has left HAL
             print(f"pyvcp: {error}")
             return

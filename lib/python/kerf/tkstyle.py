@@ -96,7 +96,9 @@ def _options(root, colours, style):
                            ("*highlightThickness", 0), ("*Entry.background", colours["field"]), ("*Text.background", colours["field"]),
                            ("*Listbox.background", colours["field"]), ("*Canvas.background", colours["field"]),
                            ("*selectBackground", colours["select"]), ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
-                           ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.px(2)),
+                           ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),
+                           ("*Spinbox.background", colours["field"]), ("*Spinbox.buttonBackground", colours["face"]),
+                           ("*Scale.troughColor", colours["pressed"]), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.px(2)),
                            ("*TCombobox*Listbox.font", "TkDefaultFont")):
         root.option_add(pattern, value, "startupFile")
 

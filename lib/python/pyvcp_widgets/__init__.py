@@ -2,10 +2,10 @@
 """The widgets of PyVCP panels.
 
 Every element is made by ELEMENTS[name](master, panel, **options); options that it does not know go to the Tk widget.
-Widgets have follow(), called each 0.1 s, when they show or take pins.
+Widgets have follow(), called each 0.1 s, when they show or take pins, and tint() when their colours follow the ground.
 """
 
-from .base import Directive, Panel
+from .base import Directive, Panel, keep_readable
 from .buttons import Button, Checkbutton, Multilabel, Label, Radiobutton
 from .controls import Dial, Jogwheel, Scale, Spinbox
 from .layout import (Axisoptions, Boxanchor, Boxexpand, Boxfill, Hbox, Image, Include, Labelframe, Option, Table, Tablerow,
@@ -20,4 +20,4 @@ ELEMENTS = {
     "tablesticky": Tablesticky, "tabs": Tabs, "boxfill": Boxfill, "boxanchor": Boxanchor, "boxexpand": Boxexpand,
     "include": Include, "title": Title, "axisoptions": Axisoptions, "option": Option, "image": Image,
 }
-__all__ = ["Directive", "ELEMENTS", "Panel"]
+__all__ = ["Directive", "ELEMENTS", "Panel", "keep_readable"]

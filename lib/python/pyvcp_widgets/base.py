@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What widgets share: the panel with its component and counters, pins, elements that are no widgets."""
+"""What widgets share: the panel with its component and counters, pins, drawings, elements that are no widgets."""
+
+import tkinter as tk
+
+from kerf import tkstyle
+
+LEAST_CONTRAST = 0.35       # of letters on their ground, of the way from black to white
 
 
 class Panel:
@@ -44,6 +50,46 @@ class Follower:
             return None
         self.seen = value
         return value
+
+
+def brightness(widget, colour):
+    """0 black to 1 white."""
+    red, green, blue = widget.winfo_rgb(colour)
+    return (0.299 * red + 0.587 * green + 0.114 * blue) / 65535
+
+
+def ink_on(widget, ground):
+    """A colour that can be read on this one."""
+    return "black" if brightness(widget, ground) > 0.5 else tkstyle.DARK["ink"]
+
+
+def keep_readable(widget, options):
+    """Where the panel's author chose only the letters' colour or only their ground, the other comes from the theme:
+    letters that can hardly be read then, on a dark ground or on the author's, get another colour."""
+    chosen = bool({"bg", "background"} & options.keys())
+    if "foreground" not in widget.keys() or (chosen and {"fg", "foreground"} & options.keys()):
+        return
+    ground = brightness(widget, widget["background"])
+    if (chosen or ground < 0.5) and abs(ground - brightness(widget, widget["foreground"])) < LEAST_CONTRAST:
+        widget.configure(foreground=ink_on(widget, widget["background"]))
+
+
+class Canvas(tk.Canvas):
+    """A drawing on the panel's own ground. tint() gives what has the tag ink (letters, lines) or edge (outlines) a colour
+    that can be read on it, also after the theme has changed."""
+
+    def __init__(self, master, **options):
+        super().__init__(master, **options)
+        self.ground = None
+        if not {"bg", "background"} & options.keys() and self["background"] in (tkstyle.LIGHT["field"], tkstyle.DARK["field"]):
+            self.configure(background=master["background"])
+
+    def tint(self):
+        if self.ground != self["background"]:
+            self.ground = self["background"]
+            colour = ink_on(self, self.ground)
+            self.itemconfigure("ink", fill=colour)
+            self.itemconfigure("edge", outline=colour)
 
 
 class Directive:

@@ -6,7 +6,7 @@ import tkinter as tk
 
 import hal
 
-from .base import Follower
+from .base import Canvas, Follower
 
 WHEEL = {"4": 1, "5": -1}       # buttons of X11
 
@@ -100,21 +100,24 @@ class Scale(tk.Scale):
         self.whole.set(int(value))
 
 
-class Wheel(tk.Canvas):
+class Wheel(Canvas):
     """A round knob that is turned by dragging and by the mouse's wheel: turned(steps) is called."""
 
     def make(self, size, cpr, text, face, edge, dot):
         self.middle, self.cpr = size / 2, max(int(cpr), 1)
         self.radius = size / 2 - 5
         self.rest, self.steps, self.last = 0.0, 0, None
-        self.create_oval(5, 5, size - 5, size - 5, fill=face, outline=edge or "black", width=2, tags="face")
+        edge_tags = () if edge or face else ("edge",)
+        ink_tags = () if face else ("ink",)
+        self.create_oval(5, 5, size - 5, size - 5, fill=face, outline=edge or "black", width=2, tags=("face", *edge_tags))
         for n in range(self.cpr if self.cpr <= 120 else 60):
             angle = 2 * math.pi * n / (self.cpr if self.cpr <= 120 else 60)
-            self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * 0.94), fill=edge or "black")
+            self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * 0.94), fill=edge or "black",
+                             tags=() if edge else ink_tags)
         self.create_oval(0, 0, 0, 0, fill=dot, tags="dot")
         if text:
-            self.create_text(self.middle, size * 0.72, text=text, font=("Helvetica", max(int(size / 18), 6)))
-        self.create_text(self.middle, self.middle, tags="number", font=("Helvetica", max(int(size / 14), 6)))
+            self.create_text(self.middle, size * 0.72, text=text, tags=ink_tags, font=("Helvetica", max(int(size / 18), 6)))
+        self.create_text(self.middle, self.middle, tags=("number", *ink_tags), font=("Helvetica", max(int(size / 14), 6)))
         self.bind("<ButtonPress-1>", self.grip)
         self.bind("<B1-Motion>", self.drag)
         bind_wheel(self, self.turn)
@@ -172,7 +175,7 @@ class Dial(Wheel):
         self.param.seen = self.value
         self.param.pin.set(self.value)
         self.make(size, cpr, text, dialcolor, edgecolor, dotcolor)
-        self.create_text(self.middle, size * 0.35, tags="step", font=("Helvetica", max(int(size / 20), 6)))
+        self.create_text(self.middle, size * 0.35, tags="step" if dialcolor else ("step", "ink"), font=("Helvetica", max(int(size / 20), 6)))
         for button, change in ((1, lambda: self.step / 10), (2, lambda: self.first_step), (3, lambda: self.step * 10)):
             self.bind(f"<Double-Button-{button}>", lambda _, change=change: self.set_step(change()))
         self.bind("<Shift-Button-1>", lambda _: self.put(self.first))

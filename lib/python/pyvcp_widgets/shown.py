@@ -8,12 +8,12 @@ import tkinter as tk
 
 import hal
 
-from .base import Follower
+from .base import Canvas, Follower
 
 SWEEP_RAD = 5.0         # of a meter's needle
 
 
-class Lamp(tk.Canvas):
+class Lamp(Canvas):
     """A coloured shape; grey when its pin disable is TRUE."""
 
     def make(self, panel, halpin, on_color, off_color, disable_pin, disabled_color):
@@ -106,7 +106,7 @@ class Timer(tk.Label):
             self.configure(text=text)
 
 
-class Bar(tk.Canvas):
+class Bar(Canvas):
     """A bar from the left edge, or from 0, with its number. Colours of ranges: (low, high, colour), all three or none."""
 
     def __init__(self, master, panel, halpin=None, min_=0, max_=100, fillcolor="green", bgcolor="grey", range1=None, range2=None,
@@ -120,8 +120,8 @@ class Bar(tk.Canvas):
         self.create_rectangle(self.x, self.y, self.x + bar_width, self.y + bar_height, fill=bgcolor)
         self.create_rectangle(0, 0, 0, 0, fill=fillcolor, width=0, tags="bar")
         below = self.y + bar_height + 8
-        self.create_text(self.x, below, text=f"{min_}")
-        self.create_text(self.x + bar_width, below, text=f"{max_}")
+        self.create_text(self.x, below, text=f"{min_}", tags="ink")
+        self.create_text(self.x + bar_width, below, text=f"{max_}", tags="ink")
         self.create_text(self.x + bar_width / 2, self.y + bar_height / 2, tags="number")
         self.value = Follower(panel.new(panel.default(halpin, "bar"), hal.HAL_FLOAT, hal.HAL_IN))
         self.follow()
@@ -144,7 +144,7 @@ class Bar(tk.Canvas):
         self.itemconfigure("number", text=self.pattern % value)
 
 
-class Meter(tk.Canvas):
+class Meter(Canvas):
     def __init__(self, master, panel, halpin=None, size=200, text=None, subtext=None, min_=0, max_=100, majorscale=None,
                  minorscale=0, region1=None, region2=None, region3=None, **options):
         super().__init__(master, width=size, height=size, **options)

@@ -88,7 +88,8 @@ def arm(comp, links, hand, size, base_height):
     parts = [hand, tip]
     for number, (pin, a, alpha, d, offset) in reversed(list(enumerate(links))):
         after = links[number + 1] if number + 1 < len(links) else None
-        body = [Color(BLUE if number % 2 else YELLOW, [CylinderZ(-size * .06, size * .06, size * .06, size * .06)])]
+        half, radius = (.068, .05) if number % 2 else (.06, .06)      # axes that cross: one shows through the other
+        body = [Color(BLUE if number % 2 else YELLOW, [CylinderZ(-size * half, size * radius, size * half, size * radius)])]
         if after and abs(after[1]) > size * .05:
             body.append(Color(GREY, [Box(0, -size * .035, -size * .035, after[1], size * .035, size * .035)]))
         if abs(d) > size * .05:
