@@ -4,7 +4,7 @@
  *
  * In:     jog targets, axis limits, joint limits
  * Out:    positions of nine axes with offsets
- * Thread: servo
+ * Thread: servo; a jog that meets a joint's limit calls kinematicsInverse BISECT + 2 times once
  * Method: position and offset of an axis are two planners whose stopping points
  *         together stay within the axis' limits; the point where all axes would
  *         stop must also lie within the joints' limits.
@@ -16,6 +16,8 @@
 #define STOP_CYCLES 12      /* jerk T^3 of these: rounding of a stop to whole cycles */
 #define STOP_ACC_PART 0.5   /* of acc T^2: the same without a limit of jerk */
 #define EDGE 2.0            /* of the way to a stop: must be within reach, too */
+#define AHEAD_CYCLES 3      /* of its way: so far beyond its stop a jog may still meet a limit */
+#define BISECT 36           /* that way to parts of 1e-9 */
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
 
 void axis_init(struct motion *m)
@@ -27,6 +29,8 @@ void axis_init(struct motion *m)
         a->locking_joint = -1;
         a->part.vel = a->part.acc = a->part.jerk = 1.0;
         a->jog_acc_scale = 1.0;
+        a->joint_lo = -INFINITY;
+        a->joint_hi = INFINITY;
     }
 }
 
@@ -122,11 +126,11 @@ static void teleop_axis_step(struct motion *m, int n, const struct teleop_scale 
 {
     struct axis *a = &m->axis[n];
     simple_tp_t *p = &a->teleop_tp, *e = &a->ext_offset_tp;
-    double T = m->traj_period, lo = a->min_pos_limit, hi = a->max_pos_limit;
+    double T = m->traj_period, lo = fmax(a->min_pos_limit, a->joint_lo), hi = fmin(a->max_pos_limit, a->joint_hi);
     int offsets = teleop_limits(a, scale);
     a->part = *scale;
     if (axis_has_no_limits(a)) {
-        axis_step_within(p, -INFINITY, INFINITY, T);
+        axis_step_within(p, a->joint_lo, a->joint_hi, T);
         if (offsets)
             axis_step_within(e, -INFINITY, INFINITY, T);
         return;
@@ -142,13 +146,35 @@ static void teleop_axis_step(struct motion *m, int n, const struct teleop_scale 
         m->eoffset_limited = 1;
 }
 
+/* The axis that alone moves, without an offset; -1: none or several. */
+static int only_axis(const struct motion *m)
+{
+    int only = -1;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        const struct axis *a = &m->axis[n];
+        if (!axis_moves(a) && !(a->teleop_tp.enable && a->teleop_tp.active))
+            continue;
+        if (only >= 0 || a->ext_offset_tp.curr_vel != 0.0)
+            return -1;
+        only = n;
+    }
+    return only;
+}
+
+/* 1 when the planner of the axis that alone moves knows where a joint's limit is. */
+static int limit_is_met(const struct motion *m)
+{
+    int n = m->status->motion_state == EMCMOT_MOTION_TELEOP ? only_axis(m) : -1;
+    return n >= 0 && isfinite(m->axis[n].teleop_tp.curr_vel > 0.0 ? m->axis[n].joint_hi : m->axis[n].joint_lo);
+}
+
 /* How far (sum over joints) a set of joint positions lies outside the limits of homed joints.
- * A stop is known to a part of a cycle's acceleration, with limited jerk to some cycles of jerk: where the axis' own
- * limits are those of the joint they see to the rest, elsewhere that much is kept free. */
+ * A stop is known to a part of a cycle's acceleration, with limited jerk to some cycles of jerk: where the planner of
+ * the axis knows the joint's limit it sees to the rest, elsewhere that much is kept free. */
 double joints_outside(const struct motion *m, const double *q)
 {
     double T = m->traj_period, sum = 0.0;
-    int own = m->kin_type == KINEMATICS_IDENTITY;
+    int own = m->kin_type == KINEMATICS_IDENTITY || limit_is_met(m);
     for (int j = 0; j < kin_joints(m); j++) {
         const emcmot_joint_t *jt = &m->joint[j];
         if (!is_active(jt) || !get_homed(j))
@@ -241,6 +267,61 @@ static int parts_can_change(struct motion *m, const struct teleop_scale *scale)
     return !lower || stop_is_reachable(m, scale);
 }
 
+/* 1 when the joints are within their limits with axis n at x. */
+static int joints_inside_at(struct motion *m, int n, double x)
+{
+    double q[EMCMOT_MAX_JOINTS];
+    EmcPose pose = m->status->carte_pos_cmd;
+    KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        q[j] = m->joint[j].coarse_pos;
+    *emcPoseAxis(&pose, n) = x + m->axis[n].ext_offset_tp.curr_pos;
+    if (kinematicsInverse(&pose, q, &m->iflags, &fflags) != 0)
+        return 0;
+    for (int j = 0; j < kin_joints(m); j++) {
+        const emcmot_joint_t *jt = &m->joint[j];
+        if (is_active(jt) && get_homed(j) && !(q[j] <= jt->max_pos_limit && q[j] >= jt->min_pos_limit))
+            return 0;
+    }
+    return 1;
+}
+
+/* A jog of one axis would stop beyond a joint's limit, or nearly: finds where it meets it. 0: nowhere near. */
+static int find_joint_limit(struct motion *m)
+{
+    int n = only_axis(m);
+    if (n < 0)
+        return 0;
+    struct axis *a = &m->axis[n];
+    const simple_tp_t *p = &a->teleop_tp;
+    double T = m->traj_period, dir = p->curr_vel != 0.0 ? copysign(1.0, p->curr_vel) : copysign(1.0, p->pos_cmd - p->curr_pos);
+    double in = p->curr_pos + simple_tp_stop_distance(p, T);
+    double out = in + dir * AHEAD_CYCLES * (fabs(p->curr_vel) + a->acc_limit * T) * T;
+    if (isfinite(dir > 0.0 ? a->joint_hi : a->joint_lo) || !joints_inside_at(m, n, in) || joints_inside_at(m, n, out))
+        return 0;
+    for (int i = 0; i < BISECT; i++) {
+        double mid = 0.5 * (in + out);
+        if (joints_inside_at(m, n, mid))
+            in = mid;
+        else
+            out = mid;
+    }
+    *(dir > 0.0 ? &a->joint_hi : &a->joint_lo) = in;
+    return 1;
+}
+
+/* What was found holds for one jog. */
+static void forget_joint_limits(struct motion *m)
+{
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        struct axis *a = &m->axis[n];
+        if (axis_moves(a))
+            continue;
+        a->joint_lo = -INFINITY;
+        a->joint_hi = INFINITY;
+    }
+}
+
 static void teleop_step(struct motion *m, const struct teleop_scale *scale, int keep)
 {
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
@@ -267,12 +348,22 @@ void axis_teleop_step(struct motion *m, EmcPose *pose)
         eoffsets_hold(m);
     teleop_scale(m, &scale);
     keep = !parts_can_change(m, &scale);
+    forget_joint_limits(m);
     memcpy(m->axis_was, m->axis, sizeof(m->axis));
     teleop_step(m, &scale, keep);
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
         jogging |= axis_moves(&m->axis[n]);
-    if (jogging && !stop_is_reachable(m, NULL)) {
+    int bad = jogging && !stop_is_reachable(m, NULL);
+    if (bad) {
         memcpy(m->axis, m->axis_was, sizeof(m->axis));
+        if (find_joint_limit(m)) {
+            teleop_step(m, &scale, keep);
+            bad = !stop_is_reachable(m, NULL);
+            if (bad)
+                memcpy(m->axis, m->axis_was, sizeof(m->axis));
+        }
+    }
+    if (bad) {
         for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
             m->axis[n].teleop_tp.enable = 0;
         eoffsets_hold(m);

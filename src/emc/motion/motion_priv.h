@@ -100,6 +100,7 @@ struct teleop_scale {
 
 struct axis {
     double min_pos_limit, max_pos_limit; /* both 0: not configured */
+    double joint_lo, joint_hi;           /* where the jog in progress meets a joint's limit; infinite: not known */
     double vel_limit, acc_limit, jerk_limit;
     double ext_offset_vel_limit, ext_offset_acc_limit;
     int locking_joint;                   /* -1 none */

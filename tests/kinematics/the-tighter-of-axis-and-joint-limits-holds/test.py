@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """FP-094: axis limits outside the joints' on a gantry, and joint limits outside the axis'. A jog slows
-down and stops at the tighter one, not more than a cycle's way before it, with at most one message; the
+down and stops exactly at the tighter one, with at most one message; the
 machine stays on and can jog back; a program is refused with one reason."""
 import kerf_motion as km
 from motion_bench import AXES, Machine
 
 bad = []
-for name, axis_limit, joint_limit in (("axis wider", 200.0, 100.0), ("joint wider", 80.0, 100.0)):
-    m = Machine(joints=4, axes="xyz", kins="trivkins coordinates=xyyz kinstype=both", low=-joint_limit, high=joint_limit)
+for name, axis_limit, joint_limit, jerk in (("axis wider", 200.0, 100.0, 0.0), ("joint wider", 80.0, 100.0, 0.0),
+                                            ("axis wider, jerk", 200.0, 100.0, 5000.0)):
+    m = Machine(jerk=jerk, traj_jerk=jerk or 1e9, joints=4, axes="xyz", kins="trivkins coordinates=xyyz kinstype=both", low=-joint_limit,
+                high=joint_limit)
     for a in range(3):
         m.send(km.SET_AXIS_POSITION_LIMITS, axis=a, minLimit=-axis_limit, maxLimit=axis_limit)
     m.mode(km.TELEOP)
@@ -22,7 +24,7 @@ for name, axis_limit, joint_limit in (("axis wider", 200.0, 100.0), ("joint wide
                 at = [m.get(f"joint.{j}.pos-cmd") for j in joints]
                 if not m.status()["enabled"] or m.violations():
                     bad.append(f"{title}: enabled {m.status()['enabled']} {m.violations()} {told}")
-                if len(told) > 1 or any(abs(q) > limit + 1e-9 for q in at) or any(abs(q - sign * limit) > 0.041 for q in at):
+                if len(told) > 1 or any(abs(q) > limit + 1e-9 for q in at) or any(abs(q - sign * limit) > 1e-6 for q in at):
                     bad.append(f"{title}: at {at}, told {told}")
                 m.send(km.JOG_ABORT, joint=-1, axis=AXES.index(letter))
                 m.sleep(0.01)
