@@ -13,6 +13,7 @@
 #include "motion_priv.h"
 
 #define INTERPOLATOR_CYCLES 3 /* history of the cubic beyond the newest point */
+#define BRANCH_UNITS 0.1      /* units, deg: joints are aligned without the tool leaving its pose by more */
 
 int kinematics_forward(struct motion *m, const double *joint, EmcPose *pose)
 {
@@ -213,6 +214,40 @@ static int may_change(struct motion *m)
     return is_inpos(m) && tpQueueDepth(&m->tp) == 0;
 }
 
+/* The request for teleop or coordinated mode cannot be met, for a reason that was told. */
+static int drop_request(struct motion *m)
+{
+    m->internal->teleoperating = m->internal->coordinating = 0;
+    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
+    return 0;
+}
+
+/* Joints that inverse kinematics wants elsewhere for this pose are aligned, as those of a racked gantry; when the tool
+ * would leave the pose meanwhile they stand on another branch, and going over is no business of a change of mode. */
+static int on_branch(struct motion *m, const double *q)
+{
+    double to[EMCMOT_MAX_JOINTS], mid[EMCMOT_MAX_JOINTS];
+    EmcPose pose = m->status->carte_pos_cmd, way = pose;
+    int farthest = 0;
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        to[j] = q[j];
+    if (kinematics_inverse(m, &pose, to) != 0)
+        return 1; /* the first cycle in the new mode reports it */
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) {
+        mid[j] = 0.5 * (q[j] + to[j]);
+        if (fabs(to[j] - q[j]) > fabs(to[farthest] - q[farthest]))
+            farthest = j;
+    }
+    int away = kinematics_forward(m, mid, &way) < 0;
+    for (int a = 0; a < EMCMOT_MAX_AXIS; a++)
+        away |= fabs(emcPoseGetAxis(&way, a) - emcPoseGetAxis(&pose, a)) > BRANCH_UNITS;
+    if (!away)
+        return 1;
+    report_error("joint %d is at %g, kinematicsInverse wants it at %g for the same pose: another branch. Jog it there",
+                 farthest, q[farthest], to[farthest]);
+    return drop_request(m);
+}
+
 /* The pose of the joints, on the way out of free mode; 0 when there is none: reported, request dropped. */
 static int pose_is_known(struct motion *m)
 {
@@ -222,11 +257,9 @@ static int pose_is_known(struct motion *m)
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
         q[j] = m->joint[j].pos_cmd;
     if (kinematics_forward(m, q, &m->status->carte_pos_cmd) >= 0)
-        return 1;
+        return m->kin_type == KINEMATICS_IDENTITY || on_branch(m, q);
     report_error("kinematicsForward failed: jog the joints to positions that belong together");
-    m->internal->teleoperating = m->internal->coordinating = 0;
-    set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
-    return 0;
+    return drop_request(m);
 }
 
 static void change_mode(struct motion *m)

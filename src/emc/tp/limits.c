@@ -9,6 +9,8 @@
 
 #define STEP 0.25       /* units, deg: longest step of the difference formulas */
 #define STEP_BEND 0.1   /* longest step as a share of the radius of curvature */
+#define EDGE_TRIES 4    /* steps tried near the edge of what can be reached, ... */
+#define EDGE_STEP 0.125 /* each so much of the one before */
 #define JUMP 90.0       /* a joint that moves so much between two points has changed its solution */
 #define SAME 1e-7       /* of a joint's travel: agreement that makes a map linear */
 
@@ -123,16 +125,12 @@ void limits_probe(struct limits *lim, const double p[PATH_AXES])
     lim->kins = LIMITS_LINEAR;
 }
 
-int limits_sample(struct limits *lim, const struct path_jet *jet, struct limits_jet *out)
+/* Joints at the place of jet and at one and two steps h before and after it: 0, -1: one is not reached, -2: nor is the
+ * place itself. */
+static int sample_points(struct limits *lim, const struct path_jet *jet, double h, double q[LIMITS_POINTS][LIMITS_JOINTS])
 {
-    double q[LIMITS_POINTS][LIMITS_JOINTS], p[PATH_AXES], d2 = 0, d3 = 0, h = STEP;
+    double p[PATH_AXES];
 
-    for (int i = 0; i < PATH_AXES; i++) {
-        d2 += jet->d2[i] * jet->d2[i];
-        d3 += jet->d3[i] * jet->d3[i];
-    }
-    if (d2 > 0) h = fmin(h, STEP_BEND / sqrt(d2));
-    if (d3 > 0) h = fmin(h, STEP_BEND / sqrt(sqrt(d3)));
     for (int k = 0; k < LIMITS_POINTS; k++) {
         static const int order[LIMITS_POINTS] = { 2, 1, 3, 0, 4 }; /* the middle seeds the others */
         int at = order[k];
@@ -140,11 +138,29 @@ int limits_sample(struct limits *lim, const struct path_jet *jet, struct limits_
         for (int i = 0; i < PATH_AXES; i++)
             p[i] = jet->p[i] + x * (jet->d1[i] + x * (jet->d2[i] / 2 + x * jet->d3[i] / 6));
         memcpy(q[at], k ? q[2] : lim->seed, sizeof q[at]);
-        if (solve(lim, p, q[at]) != 0) return -1;
+        if (solve(lim, p, q[at]) != 0) return k ? -1 : -2;
     }
+    for (int k = 1; k < LIMITS_POINTS; k++)
+        for (int n = 0; n < lim->joints; n++)
+            if (fabs(q[k][n] - q[k - 1][n]) > JUMP) return -1;
+    return 0;
+}
+
+int limits_sample(struct limits *lim, const struct path_jet *jet, struct limits_jet *out)
+{
+    double q[LIMITS_POINTS][LIMITS_JOINTS], d2 = 0, d3 = 0, h = STEP;
+    int found = -1;
+
+    for (int i = 0; i < PATH_AXES; i++) {
+        d2 += jet->d2[i] * jet->d2[i];
+        d3 += jet->d3[i] * jet->d3[i];
+    }
+    if (d2 > 0) h = fmin(h, STEP_BEND / sqrt(d2));
+    if (d3 > 0) h = fmin(h, STEP_BEND / sqrt(sqrt(d3)));
+    for (int n = 0; n < EDGE_TRIES && found == -1; n++, h *= found ? EDGE_STEP : 1) found = sample_points(lim, jet, h, q);
+    if (found) return -1;
     for (int n = 0; n < lim->joints; n++) {
         double a = q[0][n], b = q[1][n], c = q[2][n], d = q[3][n], e = q[4][n];
-        if (fabs(b - c) > JUMP || fabs(d - c) > JUMP || fabs(a - b) > JUMP || fabs(e - d) > JUMP) return -1;
         out->d1[n] = (a - 8 * b + 8 * d - e) / (12 * h);
         out->d2[n] = (-a + 16 * b - 30 * c + 16 * d - e) / (12 * h * h);
         out->d3[n] = (-a + 2 * b - 2 * d + e) / (2 * h * h * h);

@@ -6,7 +6,8 @@
  * gantries, corexy, matrices) a joint is a row of the map, and a joint that is one axis only
  * tightens that axis's limits. Other kinematics are sampled: the joints' derivatives along the
  * path come from the inverse at points of a local cubic of the path.
- * Context: [servo], no allocation; a sample calls the inverse LIMITS_POINTS times.
+ * Context: [servo], no allocation; a sample calls the inverse LIMITS_POINTS times, up to four times
+ * that near the edge of what can be reached.
  */
 #ifndef KERF_TP_LIMITS_H
 #define KERF_TP_LIMITS_H

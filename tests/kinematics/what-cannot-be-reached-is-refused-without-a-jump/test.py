@@ -81,6 +81,31 @@ go(m, "rotary delta, too low", dict(x=0, y=0, z=-30), "queue")
 go(m, "rotary delta, through the hips' plane", dict(x=0, y=0, z=0), "queue")
 go(m, "rotary delta, down", dict(x=1, y=2, z=-16), "")
 m.close()
+# from a place 0.1 units above the lowest one
+m = machine("rotarydeltakins", [90.0] * 3)
+go(m, "rotary delta, up from its lowest place", dict(x=1, y=2, z=-16), "")
+m.close()
+# thighs inward of the line of their shins: the same foot is reached with them outward, and nothing goes there by itself
+for start in ([120.0] * 3, [120.0, 100.0, 110.0], [-60.0] * 3):
+    title = f"rotary delta from {start}"
+    m = Machine(joints=3, kins="rotarydeltakins", vel=500.0, acc=1e5, low=-1e4, high=1e4, check=False, home=False,
+                home_params={j: dict(offset=q, home=q) for j, q in enumerate(start)})
+    m.enable()
+    m.send(km.JOINT_HOME, joint=-1)
+    for mode in ("after homing", km.TELEOP, km.COORD):
+        if mode != "after homing":
+            m.send(mode)
+        m.sleep(0.5)
+        s, told = m.status(), m.errors()
+        if len(told) != 1 or "another branch" not in told[0] or s["motion_state"] != 1 or max(
+                abs(q - at) for q, at in zip(m.joints_at(), start)) > 1e-6:
+            bad.append(f"{title}, mode {mode}: {told}, state {s['motion_state']}, joints {m.joints_at()}")
+    for j in range(3):
+        m.send(km.JOG_ABS, joint=j, axis=-1, vel=100.0, offset=40.0)
+    m.sleep(3)
+    m.mode(km.COORD)
+    go(m, f"{title}, jogged over", dict(x=1, y=2, z=-16), "")
+    m.close()
 # arm of 340 and 250, wrist 0: a ring from 90 to 590; the straight way through the base is out of it
 m = machine("scarakins", [30.0, 60.0, 0, 0, 0, 0], axes="xyzabc", setp=["setp scarakins.D6 0"])
 go(m, "scara, out of reach", dict(x=600, y=0, z=400, c=90), "queue")
