@@ -48,7 +48,7 @@ enum CANON_AXIS {
     CANON_AXIS_W
 };
 enum CANON_INPUT { ANALOG_INPUT = 0, DIGITAL_INPUT = 1 };
-/// M66 hands over any L; a value that is none of these is never reached, the wait times out.
+/// L of M66
 enum CANON_WAIT : int {
     WAIT_MODE_IMMEDIATE = 0,
     WAIT_MODE_RISE,

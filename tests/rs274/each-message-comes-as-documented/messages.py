@@ -393,6 +393,7 @@ TOOLS = [
     *[(f"M{m} Q1", f"Invalid analog index with M{m}") for m in (67, 68)],
     ("M66 P1 E1", "Invalid to select both a digital and an analog input with M66"),
     ("M66 P1 L1", "Zero timeout with wait type != immediate return"),
+    ("M66 P1 L5 Q1", "Wait type of M66 is none of 0 to 4 (L word)"),
     ("M66 E1 L1 Q1", "Can't select analog input with wait type != immediate return"),
     ("M66", "Need to have either a valid P or a valid E word with M66"),
     ("M66 P64", "Digital input selected out of bounds"),
