@@ -24,6 +24,15 @@ bench-soak: all
 	bash -c '. scripts/rip-environment && cd tests/small-tools/fp-137-programs-that-run-long-keep-their-size && \
 	    SOAK_HOURS=$(or $(SOAK_HOURS),24) SOAK_LOG=$(abspath $(or $(SOAK_LOG),objects/soak.log)) MACHINE_TEST_S=36000 KERF_INSTANCE=soak bash test.sh'
 
+# What FP-119, FP-122 and FP-125 ask for in full: ten million commands handed to motion, ten thousand probe moves, a thousand starts.
+# Most of an hour, so not among the benches of every day.
+.PHONY: bench-handover bench-probes
+bench-handover: all $(O)/test/motion-handover
+	$(O)/test/motion-handover $(or $(COMMANDS),10000000)
+bench-probes: all
+	bash -c '. scripts/rip-environment && cd tests/task/probes-and-switching-on-never-miss-a-beat && \
+	    PROBES=$(or $(PROBES),10000) STARTS=$(or $(STARTS),1000) MACHINE_TEST_S=36000 KERF_INSTANCE=probes bash test.sh'
+
 # The screen with OpenGL and its machine for HOURS of virtual time, memory of every process by the way; ends with status 1 when one grows.
 .PHONY: bench-axis-soak
 bench-axis-soak: all
