@@ -55,20 +55,20 @@ static void mark_jog_error(M *m, C *c)
 }
 
 /* A jog further past a limit that is already exceeded? Reports it. */
-static int jog_past_limit(M *m, int j, double vel)
+static int jog_past_limit(M *m, int j, double way)
 {
     const emcmot_joint_t *jt = &m->joint[j];
     int overridden = (m->status->overrideLimitMask >> (2 * j)) & 3;
     const char *word = NULL;
     if (overridden == 3)
         return 0;
-    if (vel > 0.0 && joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT))
+    if (way > 0.0 && joint_flag(jt, EMCMOT_JOINT_MAX_HARD_LIMIT_BIT))
         word = "max hard";
-    else if (vel < 0.0 && joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT))
+    else if (way < 0.0 && joint_flag(jt, EMCMOT_JOINT_MIN_HARD_LIMIT_BIT))
         word = "min hard";
-    else if (vel > 0.0 && jt->pos_cmd > jt->max_jog_limit)
+    else if (way > 0.0 && jt->pos_cmd > jt->max_jog_limit + LIMIT_EPSILON)
         word = "max soft";
-    else if (vel < 0.0 && jt->pos_cmd < jt->min_jog_limit)
+    else if (way < 0.0 && jt->pos_cmd < jt->min_jog_limit - LIMIT_EPSILON)
         word = "min soft";
     if (!word)
         return 0;
@@ -92,7 +92,8 @@ static void jog_joint(M *m, C *c, enum jog_kind kind)
         return;
     }
     refresh_jog_limits(m, c->joint);
-    if (jog_past_limit(m, c->joint, c->vel)) {
+    double way = c->vel == 0.0 ? 0.0 : kind == JOG_CONT ? c->vel : kind == JOG_INCR ? step : c->offset - jt->pos_cmd;
+    if (jog_past_limit(m, c->joint, way)) {
         set_joint_flag(jt, EMCMOT_JOINT_ERROR_BIT, 1);
         return;
     }
@@ -102,7 +103,7 @@ static void jog_joint(M *m, C *c, enum jog_kind kind)
         break;
     case JOG_INCR:
         target = jt->free_tp.pos_cmd + step;
-        if (target > jt->max_jog_limit || target < jt->min_jog_limit)
+        if (leads_out(target, jt->free_tp.pos_cmd, jt->min_jog_limit, jt->max_jog_limit))
             return;
         break;
     default:
@@ -130,10 +131,12 @@ static void jog_axis(M *m, C *c, enum jog_kind kind)
     switch (kind) {
     case JOG_CONT:
         target = c->vel > 0.0 ? ax->max_pos_limit : ax->min_pos_limit;
+        if ((target - ax->teleop_tp.curr_pos) * c->vel < 0.0)
+            return; /* beyond that limit already */
         break;
     case JOG_INCR:
         target = ax->teleop_tp.pos_cmd + step;
-        if (target > ax->max_pos_limit || target < ax->min_pos_limit)
+        if (leads_out(target, ax->teleop_tp.pos_cmd, ax->min_pos_limit, ax->max_pos_limit))
             return;
         break;
     default:

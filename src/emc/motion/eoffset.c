@@ -14,7 +14,7 @@
 #include <math.h>
 #include "motion_priv.h"
 
-#define LIMIT_EPSILON 1e-12 /* units: rounding of sums */
+#define SUM_EPSILON 1e-12 /* units: rounding of sums */
 #define START 1e-3          /* units: a path that waits at rest is looked at as far as this */
 
 int axis_has_no_limits(const struct axis *a) { return a->min_pos_limit == 0.0 && a->max_pos_limit == 0.0; }
@@ -221,8 +221,8 @@ int eoffset_path_waits(struct motion *m)
         if (axis_has_no_limits(a))
             continue;
         struct axis_reach p = path_reach(m, n, emcPoseGetAxis(&pose, n), 1), o = axis_reach_of(e, m->traj_period);
-        if ((o.hi > 0.0 && p.hi + o.hi > a->max_pos_limit + LIMIT_EPSILON) ||
-            (o.lo < 0.0 && p.lo + o.lo < a->min_pos_limit - LIMIT_EPSILON))
+        if ((o.hi > 0.0 && p.hi + o.hi > a->max_pos_limit + SUM_EPSILON) ||
+            (o.lo < 0.0 && p.lo + o.lo < a->min_pos_limit - SUM_EPSILON))
             return 1;
     }
     return any && joints_leave(m, &pose);

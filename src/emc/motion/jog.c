@@ -106,7 +106,7 @@ static void joint_wheel(struct motion *m, int j, int delta)
     double from = jt->free_tp.enable ? jt->free_tp.pos_cmd : jt->free_tp.curr_pos;
     struct joint_limits lim = joint_motion_limits(jt);
     double target = from + distance, acc = lim.acc * accel_fraction(p->jog_accel_fraction);
-    if (target > jt->max_jog_limit || target < jt->min_jog_limit)
+    if (leads_out(target, from, jt->min_jog_limit, jt->max_jog_limit))
         return;
     if (hal_get_bool(p->jog_vel_mode))
         target = velocity_mode(target, jt->pos_cmd, lim.vel * fmin(1.0, m->status->net_feed_scale), acc);
@@ -151,7 +151,7 @@ static void axis_wheel(struct motion *m, int n, int delta)
     double target = from + distance, fraction = accel_fraction(p->jog_accel_fraction);
     if (hal_get_bool(p->jog_vel_mode))
         target = velocity_mode(target, a->teleop_tp.curr_pos, a->vel_limit, a->acc_limit * fraction);
-    if (target > a->max_pos_limit || target < a->min_pos_limit)
+    if (leads_out(target, from, a->min_pos_limit, a->max_pos_limit))
         return;
     for (int j = 0; j < all_joints(m); j++)
         m->joint[j].free_tp.enable = 0;
@@ -165,7 +165,7 @@ static void axis_wheel(struct motion *m, int n, int delta)
 void phase_axis_wheels(struct motion *m)
 {
     int allowed = m->status->motion_state == EMCMOT_MOTION_TELEOP && !hal_get_bool(m->pins->jog_inhibit) &&
-                  !m->status->on_soft_limit && !get_homing_is_active();
+                  !get_homing_is_active();
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         struct axis *a = &m->axis[n];
         int counts = hal_get_si32(m->pins->axis[n].jog_counts);

@@ -271,6 +271,14 @@ int coord_in_position(struct motion *m);
 void axis_init(struct motion *m);
 void axes_sync_to(struct motion *m, const EmcPose *pose); /* at rest there */
 void axes_abort(struct motion *m, int immediate);
+/* Units: below any encoder; interpolated positions round by more than 1e-12. */
+#define LIMIT_EPSILON 1e-9
+
+/* [servo] 1: a jog from here to target ends farther outside the limits than it begins. */
+static inline int leads_out(double target, double from, double lo, double hi)
+{
+    return target > (from > hi ? from : hi) || target < (from < lo ? from : lo);
+}
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
 /* Sum of the ways (units) that homed joints at q are outside their limits, less the rounding of stops. */

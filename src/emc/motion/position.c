@@ -9,7 +9,6 @@
 #include <math.h>
 #include "motion_priv.h"
 
-#define LIMIT_EPSILON 1e-9    /* units: below any encoder; interpolated positions round by more than 1e-12 */
 #define ALIGN_EPSILON 1e-9    /* units: below any encoder; larger steps are moved, not jumped */
 
 /* ---- joint planners ---- */
@@ -290,10 +289,8 @@ static void soft_limits(struct motion *m)
             report_error("Hint: switch to joint mode to jog off soft limit");
         set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
     }
-    if (any && is_teleop(m) && is_enabled(m)) {
-        set_motion_flag(m, EMCMOT_MOTION_ERROR_BIT, 1);
-        axes_abort(m, 0);
-    }
+    if (first && is_teleop(m) && is_enabled(m))
+        axes_abort(m, 0); /* later jogs lead back inside: the planners let no axis stop farther out */
     m->status->on_soft_limit = any;
 }
 
