@@ -168,25 +168,27 @@ static int limit_is_met(const struct motion *m)
     return n >= 0 && isfinite(m->axis[n].teleop_tp.curr_vel > 0.0 ? m->axis[n].joint_hi : m->axis[n].joint_lo);
 }
 
-/* How far (sum over joints) a set of joint positions lies outside the limits of homed joints.
- * A stop is known to a part of a cycle's acceleration, with limited jerk to some cycles of jerk: where the planner of
- * the axis knows the joint's limit it sees to the rest, elsewhere that much is kept free. */
-double joints_outside(const struct motion *m, const double *q)
+/* 1 when any homed joint at q is farther outside its limits than it is now, by more than eps. (No joint may go out
+ * for another one that comes in.) A stop is known to a part of a cycle's acceleration, with limited jerk to some cycles
+ * of jerk: where the planner of the axis knows the joint's limit it sees to the rest, elsewhere that much is kept free. */
+int joints_go_outside(const struct motion *m, const double *q, double eps)
 {
-    double T = m->traj_period, sum = 0.0;
+    double T = m->traj_period;
     int own = m->kin_type == KINEMATICS_IDENTITY || limit_is_met(m);
     for (int j = 0; j < kin_joints(m); j++) {
         const emcmot_joint_t *jt = &m->joint[j];
         if (!is_active(jt) || !get_homed(j))
             continue;
         if (!isfinite(q[j]))
-            return INFINITY;
+            return 1;
         double slack = STOP_CYCLES * fmax(0.0, jt->jerk_limit) * T * T * T;
         if (!own)
             slack = -slack - STOP_ACC_PART * jt->acc_limit * T * T;
-        sum += fmax(0.0, q[j] - jt->max_pos_limit - slack) + fmax(0.0, jt->min_pos_limit - slack - q[j]);
+        double now = jt->coarse_pos, hi = jt->max_pos_limit + slack, lo = jt->min_pos_limit - slack;
+        if (q[j] > fmax(now, hi) + eps || q[j] < fmin(now, lo) - eps)
+            return 1;
     }
-    return sum;
+    return 0;
 }
 
 /* Seconds until the last axis stands. */
@@ -218,15 +220,14 @@ static void on_way_to_stop(const struct motion *m, const struct teleop_scale *sc
  * they can be at, and not so near the edge of what can be reached that they could not brake there. */
 static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
 {
-    double q[EMCMOT_MAX_JOINTS], now[EMCMOT_MAX_JOINTS];
+    double q[EMCMOT_MAX_JOINTS];
     EmcPose way = m->status->carte_pos_cmd;
     KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
-        q[j] = now[j] = m->joint[j].coarse_pos;
-    double already = joints_outside(m, now);
+        q[j] = m->joint[j].coarse_pos;
     for (int i = 1; i <= STOP_PLACES; i++) {
         on_way_to_stop(m, scale, (double)i / STOP_PLACES, &way);
-        if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || joints_outside(m, q) > already + TELEOP_EPSILON)
+        if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || joints_go_outside(m, q, TELEOP_EPSILON))
             return 0;
     }
     if (m->kin_type == KINEMATICS_IDENTITY)

@@ -281,8 +281,8 @@ static inline int leads_out(double target, double from, double lo, double hi)
 }
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
-/* Sum of the ways (units) that homed joints at q are outside their limits, less the rounding of stops. */
-double joints_outside(const struct motion *m, const double *q);
+/* [servo] 1: at q a homed joint would be farther outside its limits (less the rounding of stops) than it is, by eps units. */
+int joints_go_outside(const struct motion *m, const double *q, double eps);
 void axis_teleop_step(struct motion *m, EmcPose *pose);   /* -> positions with offsets */
 /* Speed (units/s, >= 0) that a planner has or cannot avoid any more. */
 double axis_speed_ahead(const simple_tp_t *tp);

@@ -178,10 +178,7 @@ static double curved_speed(struct motion *m, const struct moving *w, const doubl
 /* 1: q is farther outside the limits of the joints than they are now. */
 static int farther_out(const struct motion *m, const double *q)
 {
-    double now[EMCMOT_MAX_JOINTS];
-    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
-        now[j] = m->joint[j].coarse_pos;
-    return joints_outside(m, q) > joints_outside(m, now) + MOVES;
+    return joints_go_outside(m, q, MOVES);
 }
 
 /* 1: a step farther along an offset's way from there is out of the kinematics' reach. */
