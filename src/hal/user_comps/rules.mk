@@ -10,6 +10,7 @@ $(eval $(call script,simulate_probe,src/hal/user_comps/simulate_probe.py))
 $(eval $(call script,hal_bridge,src/hal/user_comps/hal_bridge.py))
 $(eval $(call script,moveoff_gui,src/hal/user_comps/moveoff_gui.py))
 $(eval $(call script,panelui,src/hal/user_comps/panelui.py))
+$(eval $(call script,pmx485,src/hal/user_comps/pmx485.py))
 $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
 $(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 
