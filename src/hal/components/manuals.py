@@ -51,7 +51,7 @@ GROUPS = {
     "Statistics": "histobins histobinstream latencybins latencybinstream",
     "Hardware": "hal_parport",
     "Sensors": "max31855 thermistor",
-    "Devices on Modbus and USB": "mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd pmx485 xhc-hb04",
+    "Devices on Modbus and USB": "mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd pmx485 shuttle xhc-hb04",
 }
 TITLE = re.compile(r"^= \S+\((\d)\)$", re.M)
 SUMMARY = re.compile(r"^== NAME\s+(\S+) - (.*)$", re.M)

@@ -11,6 +11,7 @@ $(eval $(call script,hal_bridge,src/hal/user_comps/hal_bridge.py))
 $(eval $(call script,moveoff_gui,src/hal/user_comps/moveoff_gui.py))
 $(eval $(call script,panelui,src/hal/user_comps/panelui.py))
 $(eval $(call script,pmx485,src/hal/user_comps/pmx485.py))
+$(eval $(call script,shuttle,src/hal/user_comps/shuttle.py))
 $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
 $(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 
