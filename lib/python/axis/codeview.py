@@ -44,9 +44,10 @@ class CodeView:
     def total(self):
         return len(self.starts) if self.path else 0
 
-    def load(self, path):
+    def load(self, path, index=None):
+        """index: line_starts(path), where it is known."""
         self.path = path
-        self.starts, self.size = line_starts(path)
+        self.starts, self.size = index or line_starts(path)
         self.tags.clear()
         self.fill(0)
         self.text.yview_moveto(0)

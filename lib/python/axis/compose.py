@@ -50,14 +50,14 @@ class Composer:
 
     # -- contents --------------------------------------------------------------------------
 
-    def set_program(self, program, boxed=False):
-        """program: gcode.Program, whose path is freed; boxed: only its bounding box is drawn."""
+    def set_program(self, program, boxed=False, run=lambda function, *args: function(*args)):
+        """program: gcode.Program, whose path is freed; boxed: only its bounding box is drawn; run(function, *args) does what takes long."""
         self.program, self.boxed, self.drawings = program, boxed, []
         if program is not None:
             self.foam_z = program.foam_z if program.foam_z is not None else self.s.foam_z
             self.foam_w = program.foam_w if program.foam_w is not None else self.s.foam_w
             if not boxed:
-                self.drawings = [self.drawing(program, plane) for plane in ((0, 1) if self.s.foam else (-1,))]
+                self.drawings = [run(self.drawing, program, plane) for plane in ((0, 1) if self.s.foam else (-1,))]
             program.release_path()
             if self.s.foam and self.logger:
                 self.logger.set_depth(self.foam_z / self.unit, self.foam_w / self.unit)

@@ -3,6 +3,7 @@
 
 import os
 import subprocess
+import threading
 import time
 
 import linuxcnc
@@ -10,12 +11,16 @@ from kerf import clock
 from kerf.tree import Tree
 
 from . import dialogs, program
+from .codeview import line_starts
 from .estimate import Rates
 
 
 LONGEST_PREVIEW_S = 60.0     # a program without an end is not read for ever, also without PREVIEW_TIMEOUT
 
 LONGEST_RESTORE_S = 120.0
+
+BESIDE_S = 0.02              # the screen looks around so often while something long is done
+LONGEST_OPEN_S = 5.0         # of task
 
 
 class OpeningPart:
@@ -40,19 +45,21 @@ class OpeningPart:
             self.add_recent(path)
         self.set_highlight_line(-1)
         shown = path
-        self.is_filtered = bool(self.loader.filter_for(path))
+        through_filter = bool(self.loader.filter_for(path))
         self.begin_progress()
         try:
-            if self.is_filtered and not filtered:
+            if through_filter and not filtered:
                 try:
-                    shown = self.loader.filtered(path, lambda percent: self.progress(percent / 2))
+                    shown = self.beside(self.loader.filtered, path, lambda percent: self.progress(percent / 2))
                 except program.FilterFailed as e:
+                    if self.cancel_loading:
+                        return
                     text = self.translate("The program '%s' exited with code %d.  Any error messages it produced are shown below:") % (e.program, e.status)
                     dialogs.ask(self.root, self.translate("Filter failed"), text, "error", 0, self.translate("OK"), extra=e.text)
                     return
-            elif self.is_filtered:
+            elif through_filter:
                 shown = os.path.join(self.loader.folder, "filtered-" + os.path.basename(path))
-            self.loaded_file, self.shown_file = path, shown
+            self.loaded_file, self.shown_file, self.is_filtered = path, shown, through_filter
             self.load_shown()
         finally:
             self.end_progress()
@@ -78,8 +85,11 @@ class OpeningPart:
         c.task_plan_synch()
         c.wait_complete()
         c.program_open(self.shown_file)
-        c.wait_complete()
-        self.code.load(self.loader.kept_text(self.shown_file))
+        end = time.monotonic() + LONGEST_OPEN_S
+        while c.wait_complete(BESIDE_S) == -1 and time.monotonic() < end:
+            self.root.update()
+        kept = self.beside(self.loader.kept_text, self.shown_file)
+        self.code.load(kept, self.beside(line_starts, kept))
         self.read_preview()
         self.show_title()
 
@@ -108,15 +118,15 @@ class OpeningPart:
 
         def progress(line):
             self.progress(50 + 50 * line / total)
-            if time.monotonic() > end:
-                self.notifications.add("info", self.translate("G-code preview loading timed out"))
-                return True
-            return self.cancel_loading
-        path = self.loader.preview(self.shown_file, self.stat, bool(self.vars.block_delete.get()), progress)
+            return self.cancel_loading or time.monotonic() > end
+        reading = self.loader.preview(self.shown_file, self.stat, bool(self.vars.block_delete.get()), progress)
+        path = self.beside(reading)
+        if path.aborted and not self.cancel_loading:
+            self.notifications.add("info", self.translate("G-code preview loading timed out"))
         if self.cancel_loading and quiet:
             return
         boxed = self.loader.too_large(self.shown_file)
-        self.preview.set_program(path, boxed)
+        self.preview.set_program(path, boxed, run=self.beside)
         self.estimate_time()
         if quiet:
             return
@@ -207,16 +217,36 @@ class OpeningPart:
         self.root.tk.call(".info.progress", "create", "rectangle", -10, -10, -10, -10, "-fill", "#2f6db5", "-outline", "")
         self.root.configure(cursor="watch")
         self.root.update_idletasks()
-        self.progress_drawn = 0.0
+        self.percent = 0.0
 
     def progress(self, percent):
-        now = time.monotonic()
-        if now - self.progress_drawn < 0.05:
-            return
-        self.progress_drawn = now
-        width, height = (int(self.root.tk.call("winfo", w, ".info.progress")) for w in ("width", "height"))
-        self.root.tk.call(".info.progress", "coords", 1, 0, 0, width * percent / 100, height)
-        self.root.update()
+        """How far it is; any thread."""
+        self.percent = percent
+
+    def beside(self, function, *args):
+        """Does what takes long in a thread, while the screen goes on (FP-136). The function touches no widget."""
+        outcome = {}
+
+        def work():
+            try:
+                outcome["value"] = function(*args)
+            except BaseException as error:
+                outcome["error"] = error
+        thread = threading.Thread(target=work, daemon=True)
+        thread.start()
+        shown = None
+        while thread.is_alive():
+            thread.join(BESIDE_S)
+            if self.percent != shown:
+                shown = self.percent
+                width, height = (int(self.root.tk.call("winfo", w, ".info.progress")) for w in ("width", "height"))
+                self.root.tk.call(".info.progress", "coords", 1, 0, 0, width * shown / 100, height)
+            self.root.update()
+            if self.cancel_loading:
+                self.loader.end_filter()
+        if "error" in outcome:
+            raise outcome["error"]
+        return outcome["value"]
 
     def end_progress(self):
         self.loading = False

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Opening programs: filters, the text that is shown, the preview's data. No widgets here."""
 
+import functools
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 
@@ -27,6 +29,7 @@ class Loader:
     def __init__(self, settings):
         self.s = settings
         self.folder = tempfile.mkdtemp(prefix="axis-")
+        self.filter = None           # the process of a filter that runs
 
     def close(self):
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -57,7 +60,8 @@ class Loader:
         with open(target, "wb") as out:
             child = subprocess.Popen(["sh", "-c", f"{program} '{quoted}'"], stdin=subprocess.DEVNULL, stdout=out,
                                      stderr=subprocess.PIPE, text=True, errors="replace",
-                                     env=os.environ | {"AXIS_PROGRESS_BAR": "1"})
+                                     env=os.environ | {"AXIS_PROGRESS_BAR": "1"}, start_new_session=True)
+            self.filter = child
             for line in child.stderr:
                 match = PROGRESS.match(line.strip())
                 if match:
@@ -66,9 +70,19 @@ class Loader:
                     print(line, end="")
                     messages.append(line)
             status = child.wait()
+            self.filter = None
         if status:
             raise FilterFailed(program, status, "".join(messages))
         return target
+
+    def end_filter(self):
+        """Ends a filter that runs, with what it started."""
+        child = self.filter
+        if child is not None:
+            try:
+                os.killpg(child.pid, signal.SIGTERM)
+            except ProcessLookupError:
+                pass
 
     def snapshot(self, path):
         """A copy of the file that later edits do not touch."""
@@ -109,7 +123,7 @@ class Loader:
         return codes
 
     def preview(self, path, stat, block_delete=False, progress=lambda line: False):
-        """A gcode.Program of the file; progress(line) true stops the reading."""
+        """A function that reads the file, in any thread, and returns a gcode.Program; progress(line) true stops the reading."""
         import gcode
         var = os.path.join(self.folder, "preview.var")
         own = os.path.join(os.path.dirname(os.path.abspath(self.s.ini_path)), self.s.find("RS274NGC", "PARAMETER_FILE"))
@@ -117,9 +131,9 @@ class Loader:
             shutil.copyfile(own, var)
         tools = [tuple(t)[:14] for t in stat.tool_table]
         division = int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64))
-        return gcode.load(path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,
-                          linear_units=self.s.units_per_mm, ini=self.s.ini_path, arc_division=division,
-                          block_delete=block_delete, progress=progress, max_vertices=MAX_VERTICES)
+        return functools.partial(gcode.load, path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,
+                                 linear_units=self.s.units_per_mm, ini=self.s.ini_path, arc_division=division,
+                                 block_delete=block_delete, progress=progress, max_vertices=MAX_VERTICES)
 
     def too_large(self, path):
         """True for a file that [DISPLAY]GRAPHICAL_MAX_FILE_SIZE (MB) lets be shown as a box only."""

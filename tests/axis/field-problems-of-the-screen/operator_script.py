@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 import os
 import sys
+import threading
 
 import linuxcnc
 import operator_lib as lib
@@ -187,12 +188,41 @@ def loading(op, here):
     op.wait(0.3)
     op.power_on()
     print("usable after it:", app.vars.task_state_string.get(), "loading over:", not app.loading)
+    beside(op, here)
     op.answer(0)
     app.open_file_guts(os.path.join(here, "broken.ngc"))
     op.wait(0.2)
     app.open_file_guts(os.path.join(here, "part.ngc"))
     app.open_file_guts(os.path.join(here, "part.ngc"))
     print("FP-139: opened twice:", op.messages()[-1:] if any("open" in m for m in op.messages()[-1:]) else "no complaint")
+
+
+def beside(op, here):
+    """What takes long waits here for the screen: it goes on, or nothing would."""
+    app = op.app
+    os.environ["GO"] = go = os.path.join(here, "go")
+    op.root.after(50, lambda: open(go, "w").close())
+    app.open_file_guts(os.path.join(here, "part.wait"))
+    print("FP-136: the screen goes on: while a silent filter works:", app.code.total, "lines,", end=" ")
+    begun, seen, drawing = threading.Event(), threading.Event(), app.preview.drawing
+
+    def waits(*args):
+        begun.set()
+        print("while the drawing is made:", seen.wait(20), end=" ")
+        return drawing(*args)
+    def go_on():
+        if begun.is_set():
+            seen.set()
+        else:
+            op.root.after(20, go_on)
+    op.root.after(20, go_on)
+    app.preview.drawing = waits
+    app.open_file_guts(os.path.join(here, "part.ngc"))
+    del app.preview.drawing
+    os.remove(go)
+    op.root.after(300, lambda: op.root.event_generate("<KeyPress-Escape>"))
+    app.open_file_guts(os.path.join(here, "part.wait"))
+    print("Escape ends a filter:", os.path.basename(app.loaded_file), "loading over:", not app.loading)
 
 
 def touching_off(op):

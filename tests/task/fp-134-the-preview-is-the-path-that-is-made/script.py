@@ -61,7 +61,7 @@ for n in range(2):
     mode(MODE_MANUAL)
     c.task_plan_synch()
     c.wait_complete()
-    preview = loader.preview(str(Path(f"p{n}.ngc").resolve()), poll())
+    preview = loader.preview(str(Path(f"p{n}.ngc").resolve()), poll())()
     mode(MODE_AUTO)
     offset = numpy.array(poll().tool_offset[:3])
     made = [numpy.array(s.position[:3]) - offset]
