@@ -528,7 +528,19 @@ void MotionLink::started(int spindle, int on) {
         if (spindle < 0 || spindle == s) started_[s] = on;
 }
 
+void MotionLink::keep_surface_speed(EMC_SPINDLE_ON *on) const {
+    if (on->spindle < 0 || on->spindle >= EMCMOT_MAX_SPINDLES) return;
+    const SpindleOrder &o = ordered_[on->spindle];
+    if (o.factor == 0) return;
+    const double sign = on->speed * o.speed < 0 ? -1 : 1;
+    on->speed = sign * o.speed;
+    on->factor = sign * o.factor;
+    on->xoffset = o.xoffset;
+}
+
 int MotionLink::spindle_order(int spindle, double speed, double factor, double xoffset) {
+    for (int s = 0; s < EMCMOT_MAX_SPINDLES; s++)
+        if (spindle < 0 || spindle == s) ordered_[s] = {speed, factor, xoffset};
     emcmot_command_t c = command(EMCMOT_SPINDLE_ON);
     c.spindle = spindle;
     c.vel = speed;

@@ -106,6 +106,8 @@ public:
     /* An order for this speed (rpm, signed) and surface speed factor would change nothing. */
     bool spindle_runs_at(int spindle, double speed, double factor) const;
     int spindle_on(int spindle, double speed, double factor, double xoffset, int wait);
+    // Surface speed that the spindle was last ordered to keep, in place of the speed of *on and in its direction.
+    void keep_surface_speed(EMC_SPINDLE_ON *on) const;
     int spindle_speed(int spindle, double speed, double factor, double xoffset);
     int spindle_command(cmd_code_t code, int spindle);
     int spindle_orient(int spindle, double orientation, int mode);
@@ -139,6 +141,8 @@ private:
     uint64_t settle_from_ = 0;
     bool joint_error_shown_[EMCMOT_MAX_JOINTS] = {};
     int started_[EMCMOT_MAX_SPINDLES] = {}; // by an order to start, not stopped or oriented since
+    struct SpindleOrder { double speed = 0, factor = 0, xoffset = 0; };
+    SpindleOrder ordered_[EMCMOT_MAX_SPINDLES]; // last one of each
     int last_wait_ = 0;                     // an S word sends it again
 };
 

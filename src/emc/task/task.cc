@@ -535,6 +535,7 @@ void Task::abort_task() {
     } else {
         forget_offsets();
     }
+    canon_->constant_rpm(); // as the interpreter, which takes G97 from the machine
 }
 
 // When the machine has come to rest the interpreter learns where it is; nothing is read or

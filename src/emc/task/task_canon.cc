@@ -573,6 +573,10 @@ void TaskCanon::spindle_is(int spindle, int dir) {
         if (spindle < 0 || spindle == s) spindle_[static_cast<size_t>(s)].dir = dir;
 }
 
+void TaskCanon::constant_rpm() {
+    for (Spindle &s : spindle_) s.css_maximum = s.css_factor = 0;
+}
+
 void TaskCanon::STOP_SPINDLE_TURNING(int spindle, int wait_for_atspeed) {
     flush();
     if (spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES) {

@@ -184,6 +184,9 @@ public:
     // word does next follows it. spindle -1: all of them.
     void spindle_is(int spindle, int dir);
 
+    // G97 for all spindles; one that turns goes on until the next S word.
+    void constant_rpm();
+
     // External axis offsets, copied from motion each cycle (machine units).
     bool offsets_applied = false;
     EmcPose offsets{};

@@ -203,10 +203,11 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_SPINDLE_ON_TYPE:
         if (hands_at_the_spindle()) return -1;
         {
-            const EMC_SPINDLE_ON &on = as<EMC_SPINDLE_ON>(m);
+            EMC_SPINDLE_ON on = as<EMC_SPINDLE_ON>(m);
+            if (stat_.task.interpState != EMC_TASK_INTERP_IDLE) motion_.keep_surface_speed(&on);
             switched_by_hand(on.spindle, on.speed > 0 ? 1 : on.speed < 0 ? -1 : 0);
+            return issue(on);
         }
-        return issue(m);
     case EMC_SPINDLE_OFF_TYPE:
         switched_by_hand(as<EMC_SPINDLE_OFF>(m).spindle, 0);
         return issue(m);

@@ -7,7 +7,7 @@ import tempfile
 
 import hal
 import kerf_motion as km
-from motion_bench import Machine, eq
+from motion_bench import Machine, eq, halcmd
 
 PITCH = 1.5  # units per revolution
 MARGIN, LAG = 1.03, 1.2  # axis speed may be so much above pitch times spindle speed: factor, and units/s while that changes
@@ -223,6 +223,36 @@ told = m.errors()
 eq([t.strip() for t in told], ["line 1 waits: spindle 0 does not turn"], "FP-028: reason")
 m.send(km.ABORT)
 m.rest()
+
+# FP-028: a thread on spindle 1 asks for its index and keeps its pitch, with spindle 0 at rest
+back()
+sync(PITCH, n=1)
+line(0, -20)
+sync(0)
+asked = []
+eq(watch(at_rest, lambda: asked.append((m.get("spindle.0.index-enable"), m.get("spindle.1.index-enable"))), n=1) > 0.97 * PITCH * 10,
+   True, "FP-028: speed of a thread on spindle 1")
+eq({a for a in asked}, {(False, True), (False, False)}, "FP-028: whose index is asked for")
+eq([t.strip() for t in m.errors()], [], "FP-028: messages")
+
+# FP-031: an encoder of 256 counts: the feed swings by no more than one count per period of the servo thread
+spindle(0, 300)
+m.sleep(3)
+for f in ("loadrt conv_float_s32", "loadrt conv_s32_float", "loadrt scale count=2", "setp scale.0.gain 256", f"setp scale.1.gain {1 / 256}",
+          "unlinkp spindle.0.revs", "net revs0 => scale.0.in", "net up scale.0.out => conv-float-s32.0.in",
+          "net count conv-float-s32.0.out => conv-s32-float.0.in", "net down conv-s32-float.0.out => scale.1.in",
+          "net coarse scale.1.out => spindle.0.revs", "addf scale.0 servo-thread 4", "addf conv-float-s32.0 servo-thread 5",
+          "addf conv-s32-float.0 servo-thread 6", "addf scale.1 servo-thread 7"):
+    halcmd([f])
+back()
+sync(PITCH)
+line(0, -20)
+sync(0)
+speeds = []
+watch(at_rest, lambda: -16 < z() < -8 and speeds.append(m.get("joint.2.vel-cmd")), fast=9)
+eq((len(speeds) > 500, max(speeds) - min(speeds) < PITCH / 256 / 0.001, m.violations()), (True, True, []),
+   f"FP-031: speeds {min(speeds)} to {max(speeds)} with 256 counts")
+print("a coarse encoder is followed smoothly")
 
 # FP-023: a probe move after a stop waits until the spindle stands; FP-027: a long wait is named, and can be ended
 back()

@@ -1,6 +1,6 @@
 # No order of abort, estop, machine off, mode change, M70 to M73, pause, tool change and restart turns
 # a spindle on: it starts only by M3, M4, M72 (which restores M3) or a spindle command, or by a program
-# that runs; words and overrides alter the speed of one that turns (FP-029, FP-025). That each of them does
+# that runs; words and overrides alter the speed of one that turns (FP-029). That each of them does
 # happen, often, in states where it has an effect, is counted.
 import os
 import random
