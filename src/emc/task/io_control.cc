@@ -312,11 +312,18 @@ int IoControl::set_offset(const EMC_TOOL_SET_OFFSET &m) {
     int idx = m.pocket;
     const int in_spindle = stat_.io.tool.toolInSpindle;
     const bool home_only = !random_ && idx == 0;
-    if (home_only)
+    CANON_TOOL_TABLE held = tooldata_entry_init();
+    const bool another = random_ && idx == 0 && tooldata_get(&held, 0) == IDX_OK && held.toolno != m.toolno;
+    if (home_only || another)
         for (int i = 1; i <= tooldata_last_index_get() && idx == 0; i++) {
             CANON_TOOL_TABLE other;
             if (tooldata_get(&other, i) == IDX_OK && other.toolno == m.toolno) idx = i;
         }
+    if (another && idx == 0) {
+        news_.push_back("tool " + std::to_string(m.toolno) + " is not in the tool table: its offsets were not set");
+        stat_.io.status = RCS_DONE; // as before: nothing was changed
+        return -1;
+    }
     CANON_TOOL_TABLE rec = tooldata_entry_init();
     tooldata_get(&rec, idx);
     const CANON_TOOL_TABLE before = rec;

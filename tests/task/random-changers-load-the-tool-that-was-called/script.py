@@ -27,6 +27,10 @@ show("G10 L1", mdi("G10 L1 P30 Z33"))
 mdi("T12 M6")
 mdi("G43")
 print(poll().tool_offset[2], s.tool_table[0].zoffset)
+for tool in (30, 12, 99):   # in its pocket, in the spindle, nowhere: no other tool's record is overwritten
+    c.tool_offset(tool, 34.5, 0, 4, 0, 0, 0)
+    show(f"tool_offset T{tool}", c.wait_complete())
+    print([l.split()[0] for l in open("mill.tbl") if "Z+34.5" in l or "Z34.5" in l])
 c.load_tool_table()
 show("reload", c.wait_complete())
 for moment in ("prepare", "change"):
