@@ -17,6 +17,7 @@ from gi.repository import GLib, GObject  # noqa: E402
 
 import hal  # noqa: E402
 import linuxcnc  # noqa: E402
+from kerf import instance  # noqa: E402
 
 __all__ = ["GPin", "GComponent", "GStat"]
 
@@ -662,11 +663,11 @@ class GStat(GObject.GObject):
         context = zmq.Context.instance()
         try:
             self._out = context.socket(zmq.PUB)
-            self._out.bind("tcp://127.0.0.1:5690")
+            self._out.bind(f"tcp://127.0.0.1:{instance.port(5690)}")
         except zmq.ZMQError:
             self._out = None
         self._in = context.socket(zmq.SUB)
-        self._in.connect("tcp://127.0.0.1:5691")
+        self._in.connect(f"tcp://127.0.0.1:{instance.port(5691)}")
         self._in.setsockopt_string(zmq.SUBSCRIBE, "STATUSREQUEST")
         GLib.io_add_watch(self._in.getsockopt(zmq.FD), GLib.IO_IN | GLib.IO_ERR | GLib.IO_HUP, self._requested)
 

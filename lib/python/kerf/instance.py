@@ -30,6 +30,11 @@ def key(documented, instance=None):
     return value & 0x7FFFFFFF or 1
 
 
+def port(documented):
+    """TCP port of this instance for a documented port, as instance_port of libnml."""
+    return 20000 + key(documented) % 12000 if name() and documented > 0 else documented
+
+
 def suffixed(path):
     """A machine-wide path (lock, log) of this instance: the default instance's has no suffix."""
     return f"{path}.{name()}" if name() else path

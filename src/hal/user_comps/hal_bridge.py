@@ -19,7 +19,7 @@ if (here.parent / "lib/python/kerf").is_dir():
     sys.path.insert(0, str(here.parent / "lib/python"))
 
 import hal
-from kerf import clock
+from kerf import clock, instance
 
 POLL_S = 0.1
 TOPIC = b"STATUSREQUEST"
@@ -29,6 +29,7 @@ BOTH_EDGES = {"cycle-pause-in": "request_cycle_pause"}
 VALUES = {"jog-rate-in": "set_jograte", "jog-rate-angular-in": "set_jograte_angular"}
 MESSAGES = {"jograte-changed": "jog-rate", "jograte-angular-changed": "jog-rate-angular",
             "jogincrements-changed": "jog-increment", "jogincrement-angular-changed": "jog-increment-angular",
+            "jogincrements-angular-changed": "jog-increment-angular",     # as GStat says it
             "joint-selection-changed": "joint-selected"}
 COMMANDS = (("MDI_COMMAND_LIST", "MDI_COMMAND_", "ini-mdi-cmd-"), ("MACROS", "MACRO_COMMAND_", "ini-macro-cmd-"))
 STRIPPED = "macro-cmd-"     # these characters, at both ends of a pin's name
@@ -131,8 +132,8 @@ def open_ini():
 def main():
     parser = argparse.ArgumentParser(prog="hal_bridge", description="Pins for a screen that is reached by ZeroMQ.")
     parser.add_argument("-d", action="store_true", help="print what is sent and received")
-    parser.add_argument("--readport", default="tcp://127.0.0.1:5690")
-    parser.add_argument("--writeport", default="tcp://127.0.0.1:5691")
+    parser.add_argument("--readport", default=f"tcp://127.0.0.1:{instance.port(5690)}")
+    parser.add_argument("--writeport", default=f"tcp://127.0.0.1:{instance.port(5691)}")
     options = parser.parse_args()
     link = None
     try:

@@ -15,7 +15,7 @@ NULL = struct.pack(">iqi", 21, 24, 0)  # the message EMC_NULL
 
 
 def port(documented=5005):
-    return documented if not instance.name() else 20000 + instance.key(documented) % 12000
+    return instance.port(documented)
 
 
 class Server:
