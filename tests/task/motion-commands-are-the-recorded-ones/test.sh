@@ -1,5 +1,6 @@
 #!/bin/bash
 # The commands that task gives to motion for each program are those that were recorded.
+# Names in n and r are random programs, x- one kind of command each (threads, G5.2, compensation in each plane, offsets...).
 # (No program has a mistake right after feed moves: LinuxCNC drops those, here they are made.)
 export KERF_CLOCK=virtual
 here=$PWD
