@@ -7,6 +7,6 @@ screen_test() { # name of a sample machine, display script, [program]
     rm -rf machine home; cp -r "$top/configs/sim/$1" machine; mkdir home
     sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" machine/$1.ini
     [ -z "${ini_edit:-}" ] || sed -i "$ini_edit" machine/$1.ini
-    HOME=$PWD/home "$top/tests/lib/with-display" ${screen_size:-1024x768} linuxcnc -r -D "$PWD/$2 ${3:-}" machine/$1.ini > screen.log 2> screen.err < /dev/null
+    HOME=$PWD/home "$top/tests/lib/${screen_server:-with-display}" ${screen_size:-1024x768} linuxcnc -r -D "$PWD/$2 ${3:-}" machine/$1.ini > screen.log 2> screen.err < /dev/null
     echo "status $?"
 }
