@@ -277,6 +277,9 @@ void cmd_set_probe_err_inhibit(M *m, C *c)
 {
     m->config_work.inhibit_probe_jog_error = c->probe_jog_err_inhibit;
     m->config_work.inhibit_probe_home_error = c->probe_home_err_inhibit;
+    m->config_work.probe_feed_contact = c->probe_feed_contact;
+    m->config_work.probe_rapid_contact = c->probe_rapid_contact;
+    m->config_work.probe_filter = c->probe_filter;
     config_publish(m);
 }
 

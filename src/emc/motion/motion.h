@@ -213,9 +213,14 @@ typedef struct emcmot_command {
     double maxFeedScale;
     double ext_offset_vel, ext_offset_acc;
     struct state_tag_t tag;
+    int probe_feed_contact, probe_rapid_contact; /* PROBE_CONTACT_... */
+    double probe_filter; /* s */
 } emcmot_command_t;
 
 /* ---- joints -------------------------------------------------------------- */
+
+/* What a probe contact in a move that is no probe move does. */
+enum { PROBE_CONTACT_STOP, PROBE_CONTACT_WARN, PROBE_CONTACT_IGNORE };
 
 typedef struct {
     double nominal;
@@ -403,6 +408,8 @@ typedef struct emcmot_config {
     double arcBlendRampFreq, arcBlendTangentKinkRatio;
     double maxFeedScale;
     int inhibit_probe_jog_error, inhibit_probe_home_error;
+    int probe_feed_contact, probe_rapid_contact; /* PROBE_CONTACT_... */
+    double probe_filter; /* s that a contact outside probe moves must last */
     unsigned int tail;
 } emcmot_config_t;
 

@@ -164,7 +164,8 @@ struct motion {
     int aligning;              /* joints go to where kinematics wants them before teleop or coord */
     double align_to[EMCMOT_MAX_JOINTS];
     int coord_moved;           /* a coordinated move was queued since homing (INVERSE_ONLY) */
-    int probe_was;             /* probe input of the cycle before */
+    int probe_stops;           /* a probe move runs or comes to rest */
+    double probe_held;         /* s that the probe input has been on; infinite: by a probe move */
     int index_was[EMCMOT_MAX_SPINDLES]; /* request as last written to the pin */
     double pos_was[EMCMOT_MAX_JOINTS][2];      /* pos_cmd of the last two cycles, newest first */
     double joint_acc_scale[EMCMOT_MAX_JOINTS]; /* wheel jog's fraction, else 1 */

@@ -4,7 +4,10 @@
  *
  * In:     motion.probe-input, state of the planner   Out: probedPos, aborts, messages
  * Thread: servo
+ * Method: a probe move latches the first edge and has all the bounce until it stands; elsewhere a
+ *         contact counts when it has lasted for the filter's time.
  */
+#include <math.h>
 #include "motion_priv.h"
 
 #define PROBE_SUPPRESS 1
@@ -37,7 +40,11 @@ static void unexpected_contact(struct motion *m)
 {
     int homing = 0, jogging = 0;
     if (!is_inpos(m) && tpQueueDepth(&m->tp) != 0) {
-        if (m->status->motionType != EMC_MOTION_TYPE_PROBING) {
+        int action = m->status->motionType == EMC_MOTION_TYPE_TRAVERSE ? m->config_work.probe_rapid_contact
+                                                                        : m->config_work.probe_feed_contact;
+        if (action == PROBE_CONTACT_WARN) {
+            report_error("Probe tripped during non-probe move, which goes on.");
+        } else if (action != PROBE_CONTACT_IGNORE) {
             report_error("Probe tripped during non-probe move.");
             fail_motion(m);
         }
@@ -68,13 +75,28 @@ static void unexpected_contact(struct motion *m)
     }
 }
 
+static int nothing_moves(struct motion *m)
+{
+    return is_inpos(m) && tpQueueDepth(&m->tp) == 0 && !get_homing_is_active() && !axes_jogging(m);
+}
+
 void phase_probe(struct motion *m)
 {
-    int now = hal_get_bool(m->pins->probe_input), rising = now && !m->probe_was;
+    int now = hal_get_bool(m->pins->probe_input);
+    double before = m->probe_held, filter = m->config_work.probe_filter;
     m->status->probeVal = now;
+    m->probe_held = now ? before + m->servo_period : 0.0;
     if (m->status->probing)
-        probe_move(m);
-    else if (rising)
+        m->probe_stops = 1;
+    else if (is_inpos(m))
+        m->probe_stops = 0;
+    if (m->probe_stops) {
+        m->probe_held = now ? INFINITY : 0.0;
+        if (m->status->probing)
+            probe_move(m);
+    } else if (filter > 0.0 && now && before == 0.0 && nothing_moves(m)) {
+        m->probe_held = INFINITY; /* begun at rest: no fault of the move that comes next */
+    } else if (before <= filter && m->probe_held > filter) {
         unexpected_contact(m);
-    m->probe_was = now;
+    }
 }

@@ -3,12 +3,10 @@
 // fault_stop.cc - see fault_stop.hh.
 #include "fault_stop.hh"
 
-#include <strings.h>
-
 #include <cmath>
-#include <initializer_list>
 #include <string>
 
+#include "ini_settings.hh"
 #include "motion.h"
 #include "rcs_print.hh"
 
@@ -20,21 +18,6 @@ constexpr double REST_MOST_S = 2.0, // a machine that does not come to rest
 
 int64_t ns(double s) { return static_cast<int64_t>(s * 1e9); }
 
-// Index of the value among the words, those in any case; `standard` without a value; -1 none of them.
-int word_of(const linuxcnc::IniFile &ini, const char *name, int standard, std::initializer_list<const char *> words) {
-    const std::string value = ini.findStringV(name, "TASK", "");
-    if (value.empty()) return standard;
-    int n = 0;
-    std::string all;
-    for (const char *w : words) {
-        if (strcasecmp(value.c_str(), w) == 0) return n;
-        n++;
-        all += std::string(all.empty() ? "" : ", ") + w;
-    }
-    rcs_print_error("[TASK]%s = %s: it must be one of %s\n", name, value.c_str(), all.c_str());
-    return -1;
-}
-
 } // namespace
 
 bool FaultStop::load(const linuxcnc::IniFile &ini) {
@@ -45,11 +28,11 @@ bool FaultStop::load(const linuxcnc::IniFile &ini) {
     };
     bool good = true;
     for (const auto &f : faults) {
-        const int word = word_of(ini, f.name, f.standard, {"OFF", "REST"});
+        const int word = word_of(ini, "TASK", f.name, f.standard, {"OFF", "REST"});
         good = good && word >= 0;
         if (word == 1) at_rest_ |= f.cause;
     }
-    const int word = word_of(ini, "LIMIT_SWITCH_RETRACT", 0, {"OPERATOR", "AUTO", "NO"});
+    const int word = word_of(ini, "TASK", "LIMIT_SWITCH_RETRACT", 0, {"OPERATOR", "AUTO", "NO"});
     retract_ = static_cast<Retract>(word < 0 ? 0 : word);
     return good && word >= 0;
 }

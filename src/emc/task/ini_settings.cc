@@ -3,12 +3,29 @@
 // ini_settings.cc - see ini_settings.hh.
 #include "ini_settings.hh"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <string>
 
 #include "rcs_print.hh"
+
+int word_of(const linuxcnc::IniFile &ini, const char *section, const char *name, int standard, std::initializer_list<const char *> words) {
+    const std::string value = ini.findStringV(name, section, "");
+    if (value.empty()) return standard;
+    int n = 0;
+    std::string all;
+    for (const char *w : words) {
+        if (strcasecmp(value.c_str(), w) == 0) return n;
+        n++;
+        all += std::string(all.empty() ? "" : ", ") + w;
+    }
+    rcs_print_error("[%s]%s = %s: it must be one of %s\n", section, name, value.c_str(), all.c_str());
+    return -1;
+}
 
 namespace {
 
@@ -101,7 +118,11 @@ int load_traj(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &motion, 
     s.arc_blend_kink_ratio = ini.findRealV("ARC_BLEND_KINK_RATIO", "TRAJ", 0.1);
     send(send_arc_blends(s, motion));
     send(motion.set_max_feed_override(ini.findRealV("MAX_FEED_OVERRIDE", "DISPLAY", 1.0)));
-    send(motion.set_probe_err_inhibit(ini.findBoolV("NO_PROBE_JOG_ERROR", "TRAJ", false), ini.findBoolV("NO_PROBE_HOME_ERROR", "TRAJ", false)));
+    const int feed_contact = word_of(ini, "TRAJ", "PROBE_CONTACT_FEED", PROBE_CONTACT_STOP, {"STOP", "WARN", "IGNORE"});
+    const int rapid_contact = word_of(ini, "TRAJ", "PROBE_CONTACT_RAPID", PROBE_CONTACT_STOP, {"STOP", "WARN", "IGNORE"});
+    if (feed_contact < 0 || rapid_contact < 0) return -1;
+    send(motion.set_probe_errors(ini.findBoolV("NO_PROBE_JOG_ERROR", "TRAJ", false), ini.findBoolV("NO_PROBE_HOME_ERROR", "TRAJ", false),
+                                 feed_contact, rapid_contact, ini.findRealV("PROBE_CONTACT_FILTER", "TRAJ", 0.0, 0.0, 10.0)));
     EmcPose home{};
     bool present;
     if (!read_home(ini, &home, &present)) return -1;

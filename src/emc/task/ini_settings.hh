@@ -7,6 +7,7 @@
 #ifndef KERF_INI_SETTINGS_HH
 #define KERF_INI_SETTINGS_HH
 
+#include <initializer_list>
 #include <string>
 
 #include "hal.h"
@@ -33,6 +34,9 @@ struct Settings {
     bool no_force_homing = false;
     std::string position_file;
 };
+
+// Index of the value among the words, those in any case; `standard` without a value; -1, with a message, none of them.
+int word_of(const linuxcnc::IniFile &ini, const char *section, const char *name, int standard, std::initializer_list<const char *> words);
 
 // Sends everything in the documented order. 0; -1 with a message.
 int load_settings(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &motion, Settings *settings);

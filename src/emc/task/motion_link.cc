@@ -154,10 +154,13 @@ int MotionLink::set_max_feed_override(double scale) {
     return send(c);
 }
 
-int MotionLink::set_probe_err_inhibit(bool jog, bool home) {
+int MotionLink::set_probe_errors(bool jog, bool home, int feed, int rapid, double filter) {
     emcmot_command_t c = command(EMCMOT_SET_PROBE_ERR_INHIBIT);
     c.probe_jog_err_inhibit = jog;
     c.probe_home_err_inhibit = home;
+    c.probe_feed_contact = feed;
+    c.probe_rapid_contact = rapid;
+    c.probe_filter = filter;
     return send(c);
 }
 

@@ -51,7 +51,8 @@ public:
     int set_scurve_peak_scale(double scale);
     int set_home(const EmcPose &home);
     int set_max_feed_override(double scale);
-    int set_probe_err_inhibit(bool jog, bool home);
+    /// feed, rapid: PROBE_CONTACT_...; filter in seconds.
+    int set_probe_errors(bool inhibit_jog, bool inhibit_home, int feed, int rapid, double filter);
     int set_arc_blends(bool enable, bool fallback, int depth, int gap_cycles, double ramp_freq, double kink_ratio);
     int set_joint_backlash(int j, double v);
     int set_joint_min_limit(int j, double v);

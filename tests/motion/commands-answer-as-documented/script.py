@@ -2,7 +2,7 @@
 # Covers of the field problems: FP-065 and FP-066 (a jog moves the named joint or axis alone, whatever
 # came before), FP-068 (an override of limits ends with the first jog, for the tripped switch only),
 # FP-069 (a jog back inside is accepted), FP-070 (a position reached by jogging is legal), FP-071
-# (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others), FP-097
+# (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others; more in tests/task/fp-072-...), FP-097
 # (the machine never goes off without a word, also where a joint has shown an error before).
 import os
 import tempfile

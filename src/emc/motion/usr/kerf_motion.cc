@@ -80,7 +80,8 @@ const std::map<std::string, Setter> &setters()
         BYTE(probe_type), INT(probe_jog_err_inhibit), INT(probe_home_err_inhibit), REAL(orientation), INT(state),
         INT(direction), REAL(timeout), BYTE(wait_for_spindle_at_speed), INT(arcBlendOptDepth), INT(arcBlendEnable),
         INT(arcBlendFallbackEnable), INT(arcBlendGapCycles), REAL(arcBlendRampFreq), REAL(arcBlendTangentKinkRatio),
-        REAL(maxFeedScale), REAL(ext_offset_vel), REAL(ext_offset_acc),
+        REAL(maxFeedScale), REAL(ext_offset_vel), REAL(ext_offset_acc), INT(probe_feed_contact), INT(probe_rapid_contact),
+        REAL(probe_filter),
     };
 #undef REAL
 #undef INT
