@@ -25,7 +25,7 @@ bench-soak: all
 	    SOAK_HOURS=$(or $(SOAK_HOURS),24) SOAK_LOG=$(abspath $(or $(SOAK_LOG),objects/soak.log)) MACHINE_TEST_S=36000 KERF_INSTANCE=soak bash test.sh'
 
 # What FP-119, FP-122 and FP-125 ask for in full: ten million commands handed to motion, ten thousand probe moves, a thousand starts.
-# Most of an hour, so not among the benches of every day.
+# A quarter of an hour on a busy machine, so not among the benches of every day.
 .PHONY: bench-handover bench-probes
 bench-handover: all $(O)/test/motion-handover
 	$(O)/test/motion-handover $(or $(COMMANDS),10000000)
