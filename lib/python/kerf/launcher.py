@@ -223,7 +223,7 @@ class Session:
         os.environ["PATH"] = self.env["PATH"]
         os.environ["HALLIB_PATH"] = hallib_path
         self.watched = {}        # pid -> name: the session ends when one of these dies,
-        self.dispensable = {"linuxcncsvr"}    # or the operator is told: server of remote clients, components of HAL
+        self.dispensable = set()  # or the operator is told: server of remote clients, components of HAL
         self.display = None
         self.have_lock = False
         self.task_died = False   # without having put anything in order
@@ -512,14 +512,16 @@ class Session:
             kind = "rtapi_app" if name.startswith("rtapi_app") else name
             if kind in wanted:
                 self.watched[pid] = name
+                if kind == "linuxcncsvr":
+                    self.dispensable.add(pid)
                 wanted.remove(kind)
                 if not wanted:
                     break
         for line in self.output("halcmd", "-s", "show", "comp").splitlines():
             words = line.split()       # number, kind, name, process, state
-            if len(words) == 5 and words[1] == "User" and words[3].isdigit() and lives(int(words[3])):
-                self.watched.setdefault(int(words[3]), words[2])
-                self.dispensable.add(words[2])
+            if len(words) == 5 and words[1] == "User" and words[3].isdigit() and int(words[3]) not in self.watched and lives(int(words[3])):
+                self.watched[int(words[3])] = words[2]
+                self.dispensable.add(int(words[3]))
 
     def tell_operator(self, text):
         """In the logs and, by task, at every screen. Does not wait."""
@@ -550,7 +552,7 @@ class Session:
             for pid, name in list(self.watched.items()):
                 if lives(pid):
                     continue
-                if name not in self.dispensable:
+                if pid not in self.dispensable:
                     self.task_died |= name == self.task[:15]
                     raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
                 lost = "remote clients are cut off" if name == "linuxcncsvr" else "what it did is no longer done"
