@@ -330,6 +330,15 @@ class Settings:
                         self.exists(section, name, n + 1, setting.kind, part.strip())
         if ini.get("EMCIO", "TOOL_TABLE") and not ini.get("EMCIO", "DB_PROGRAM"):
             self.exists("EMCIO", "TOOL_TABLE", 1, "file", ini.get("EMCIO", "TOOL_TABLE"))
+        if parameters := ini.get("RS274NGC", "PARAMETER_FILE"):
+            path = self.path(parameters)
+            if path.is_dir() or path.exists() and not os.access(path, os.R_OK):
+                self.exists("RS274NGC", "PARAMETER_FILE", 1, "file", parameters)
+            elif path.parent.is_dir() and not os.access(path.parent, os.W_OK):
+                self.c.warning(f"[RS274NGC]PARAMETER_FILE: '{parameters}' can not be saved, the folder is not writable for this user: offsets will be lost",
+                               "RS274NGC", "PARAMETER_FILE")
+            elif not path.parent.is_dir():
+                self.c.warning(f"[RS274NGC]PARAMETER_FILE: '{parameters}' can not be saved: there is no folder {path.parent}", "RS274NGC", "PARAMETER_FILE")
         for section, name in (("EMCIO", "DB_PROGRAM"), ("TASK", "TASK"), ("DISPLAY", "DISPLAY"), ("HAL", "HALUI")):
             words = (ini.get(section, name) or "").split()
             if words and not self.program(words[0]):

@@ -308,7 +308,11 @@ def main(argv):
         print("Usage: update_ini [-d] [-f] FILE")
         return 0
     path = Path(re.sub(r"\.expanded$", "", files[0])).resolve()
-    _, sections = read_sections(path.read_text(errors="surrogateescape"))
+    try:
+        _, sections = read_sections(path.read_text(errors="surrogateescape"))
+    except OSError as e:
+        print(f"update_ini: {path}: {e.strerror}", file=sys.stderr)
+        return 1
     version = value(sections.get("EMC"), "VERSION") or "0.0"
     if version.startswith("$"):
         version = "0.1"

@@ -106,6 +106,7 @@ int load_parameters(Setup &s)
     }
     FILE *f = fopen(s.parameter_file.c_str(), "re");
     if (!f) {
+        if (errno != ENOENT) perror(s.parameter_file.c_str());
         CHECK(errno != ENOENT, "Unable to open parameter file: '%s'", s.parameter_file.c_str());
         return INTERP_OK;
     }

@@ -13,3 +13,4 @@ sed "s/created .* by/created DATE by/" "$out/b.ini"; cat "$out/b.hal"
 echo "status $?"
 printf '[EMC]\nVERSION = 1.0\n' > "$out/c.ini"
 echo n | (cd "$out" && update_ini c.ini > /dev/null; echo "status $?"); cat "$out/c.ini"
+(cd "$out" && update_ini nowhere.ini 2>&1 | sed "s|$out|DIR|"; echo "status ${PIPESTATUS[0]}")
