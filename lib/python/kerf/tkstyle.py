@@ -99,6 +99,8 @@ def _options(root, colours, style):
                            ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),
                            ("*Spinbox.background", colours["field"]), ("*Spinbox.buttonBackground", colours["face"]),
                            ("*Scale.troughColor", colours["pressed"]), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.px(2)),
+                           # Tk's file dialogs have white lists in every theme.
+                           ("*TkFDialog*Canvas.foreground", "black"), ("*TkChooseDir*Canvas.foreground", "black"),
                            ("*TCombobox*Listbox.font", "TkDefaultFont")):
         root.option_add(pattern, value, "startupFile")
 

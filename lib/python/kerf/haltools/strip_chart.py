@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The window of latency-plot: latency over time, one strip for each thread."""
 
+import math
 import time
 import tkinter as tk
 from tkinter import ttk
@@ -11,6 +12,12 @@ from .latency_view import HEIGHT, WIDTH
 
 POINTS, LEAST_POINTS, MOST_POINTS, STEP = 60, 10, 600, 10     # of a strip
 TICKS = 5           # marks on the axis of time
+
+
+def round_above(value):
+    """The least of 1, 2, 4, 8 with zeros that is not below: its quarters are easy to read."""
+    ten = 10.0 ** math.floor(math.log10(value))
+    return next(n * ten for n in (1, 2, 4, 8, 10) if n * ten >= value * (1 - 1e-9))
 
 
 class Strip(tk.Canvas):
@@ -34,7 +41,7 @@ class Strip(tk.Canvas):
         self.create_text(px(8), px(6), anchor="nw", text=f"{self.title}   {self.text}", font="TkDefaultFont", fill=colours["ink"], tags="figures")
         if not self.rows:
             return
-        top = max(*(row[2] for row in self.rows), 1e-3)
+        top = round_above(max(*(row[2] for row in self.rows), 1e-3))
 
         def place(number, value):
             return left + px(4) + number * (width - left - px(12)) / max(1, self.points - 1), floor - (floor - ceiling) * value / top
