@@ -10,7 +10,7 @@ from .icons import Icons
 
 # What AXIS has beside the colours of all Tk programs.
 LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#70767f", "chosen": "#b9d3ee", "trough": "#c9c5bd", "mark": "#fffffe"}
-DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#3f5f86", "trough": "#44474c", "mark": "#c4c9d0"}
+DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#3f5f86", "trough": "#44474c", "mark": "#1e1f23"}
 TOUCH, TOUCH_LOW = 1.45, 1.2     # buttons and sliders for gloves; on a low screen
 SCALES = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0)      # 0: from the screen
 LEAST_WINDOW = (760, 520)

@@ -6,6 +6,7 @@ import tkinter
 
 import hal
 import vcpparse
+from axis import looks
 from kerf import tkstyle
 
 LEAST = 0.3
@@ -20,6 +21,10 @@ def weak(widget):
     if "foreground" in widget.keys() and widget.winfo_class() != "Scale":
         if abs(brightness(widget, widget["foreground"]) - brightness(widget, widget["background"])) < LEAST:
             yield f"{widget.winfo_class()} {widget['foreground']} on {widget['background']}"
+    if widget.winfo_class() in ("Checkbutton", "Radiobutton"):      # the mark has the letters' colour
+        for box in (widget["selectcolor"], (looks.DARK if os.environ["KERF_THEME"] == "dark" else looks.LIGHT)["mark"]):
+            if abs(brightness(widget, widget["foreground"]) - brightness(widget, box)) < 0.5:
+                yield f"a mark {widget['foreground']} in a box {box}"
     if isinstance(widget, tkinter.Canvas):
         if widget["background"] != widget.master["background"]:
             yield f"a drawing on {widget['background']} in {widget.master['background']}"
