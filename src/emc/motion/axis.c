@@ -4,7 +4,7 @@
  *
  * In:     jog targets, axis limits, joint limits
  * Out:    positions of nine axes with offsets
- * Thread: servo; a jog that meets a joint's limit calls kinematicsInverse BISECT + 2 times once
+ * Thread: servo; a jog that meets a joint's limit calls kinematicsInverse BISECT + 4 times once
  * Method: position and offset of an axis are two planners whose stopping points
  *         together stay within the axis' limits; the point where all axes would
  *         stop must also lie within the joints' limits.
@@ -18,6 +18,7 @@
 #define EDGE 2.0            /* of the way to a stop: must be within reach, too */
 #define AHEAD_CYCLES 3      /* of its way: so far beyond its stop a jog may still meet a limit */
 #define BISECT 36           /* that way to parts of 1e-9 */
+#define OWN_STEP 0.01       /* units, deg: tells which axes move a joint */
 #define TELEOP_EPSILON 1e-9 /* units: rounding of forward and inverse kinematics */
 
 void axis_init(struct motion *m)
@@ -216,19 +217,34 @@ static void on_way_to_stop(const struct motion *m, const struct teleop_scale *sc
     }
 }
 
+/* Where joints turn round on their way over three places, as on a parabola; those that do not: the middle place. */
+static void outmost_between(const double *a, const double *b, const double *c, double *q)
+{
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) {
+        double slope = 0.5 * (c[j] - a[j]), bend = a[j] - 2.0 * b[j] + c[j];
+        q[j] = fabs(slope) < fabs(bend) ? b[j] - 0.5 * slope * slope / bend : b[j];
+    }
+}
+
 /* 1 when the axes, stopped from now on, come to rest at a place the joints can be at, over places
  * they can be at, and not so near the edge of what can be reached that they could not brake there. */
 static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
 {
-    double q[EMCMOT_MAX_JOINTS];
+    double q[EMCMOT_MAX_JOINTS], before[2][EMCMOT_MAX_JOINTS], outmost[EMCMOT_MAX_JOINTS];
+    int met = limit_is_met(m);
     EmcPose way = m->status->carte_pos_cmd;
     KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
-        q[j] = m->joint[j].coarse_pos;
+        q[j] = before[0][j] = before[1][j] = m->joint[j].coarse_pos;
     for (int i = 1; i <= STOP_PLACES; i++) {
         on_way_to_stop(m, scale, (double)i / STOP_PLACES, &way);
         if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || joints_go_outside(m, q, TELEOP_EPSILON))
             return 0;
+        outmost_between(before[0], before[1], q, outmost);
+        if (i > 1 && !met && joints_go_outside(m, outmost, TELEOP_EPSILON))
+            return 0;
+        memcpy(before[0], before[1], sizeof q);
+        memcpy(before[1], q, sizeof q);
     }
     if (m->kin_type == KINEMATICS_IDENTITY)
         return 1;
@@ -287,11 +303,31 @@ static int joints_inside_at(struct motion *m, int n, double x)
     return 1;
 }
 
+/* 1 when no other axis moves the joints that axis n moves: the place where it meets their limit stays where it is. */
+static int joints_are_its_own(struct motion *m, int n)
+{
+    double here[EMCMOT_MAX_JOINTS], q[2][EMCMOT_MAX_JOINTS];
+    KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        here[j] = q[0][j] = q[1][j] = m->joint[j].coarse_pos;
+    for (int other = 0; other < 2; other++) {
+        EmcPose pose = m->status->carte_pos_cmd;
+        for (int a = 0; a < EMCMOT_MAX_AXIS; a++)
+            *emcPoseAxis(&pose, a) += (a != n) == other ? OWN_STEP : 0.0;
+        if (kinematicsInverse(&pose, q[other], &m->iflags, &fflags) != 0)
+            return 0;
+    }
+    for (int j = 0; j < kin_joints(m); j++)
+        if (fabs(q[0][j] - here[j]) > TELEOP_EPSILON && fabs(q[1][j] - here[j]) > TELEOP_EPSILON)
+            return 0;
+    return 1;
+}
+
 /* A jog of one axis would stop beyond a joint's limit, or nearly: finds where it meets it. 0: nowhere near. */
 static int find_joint_limit(struct motion *m)
 {
     int n = only_axis(m);
-    if (n < 0)
+    if (n < 0 || !joints_are_its_own(m, n))
         return 0;
     struct axis *a = &m->axis[n];
     const simple_tp_t *p = &a->teleop_tp;
