@@ -96,7 +96,7 @@ void tp_forget_moves(TP_STRUCT *tp, struct planner *pl, int keep_tag)
     pl->tap.state = TAP_IDLE;
     if (pl->starting == START_INDEX) tp_mot.status->spindle_status[pl->followed].spindle_index_enable = 0;
     pl->starting = START_NONE;
-    pl->followed = -1;
+    pl->followed = pl->out_of_phase = -1;
     if (tp_mot.status) tp_mot.status->spindleSync = 0;
     if (!keep_tag) memset(&pl->exec_tag, 0, sizeof pl->exec_tag);
     tp->spindle.waiting_for_index = tp->spindle.waiting_for_atspeed = -1;

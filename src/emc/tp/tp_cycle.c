@@ -255,6 +255,7 @@ int tpRunCycle(TP_STRUCT *tp, long period)
         tp_fail(pl);
     }
     if (traj_done(tj) && rotary_locked(pl) && !tp_mot.status->offsets_leave) {
+        tp_check_phase(pl);
         tp_forget_moves(tp, pl, 1);
         idle_status(pl);
     }

@@ -104,6 +104,7 @@ struct planner {
     char from_index[EMCMOT_MAX_SPINDLES]; /* 1: the encoder counts from an index */
     struct index_watch index; /* of the followed spindle */
     int followed;           /* spindle of `follow`, -1 none */
+    int out_of_phase;       /* line of the move that follows and has not been where it belongs, -1 none */
     struct follower follow;
     struct tap tap;
     struct outputs pending; /* of the next move appended */
@@ -167,6 +168,8 @@ double tp_follow_lead(const struct planner *pl, const struct move_info *info);
 int tp_sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *info, double acc, double vmax);
 /* Speed asked for by the spindle that the executing move follows. */
 double tp_sync_speed(struct planner *pl);
+/* A thread, or its first move, has ended: tells the operator if the axis did not get in phase before. */
+void tp_check_phase(struct planner *pl);
 /* The executing move changed from `from` to the present one: the reference goes on from its end. */
 void tp_follow_moves(struct planner *pl, uint32_t from);
 /* A wait for a spindle that takes long is named in the log, once. */

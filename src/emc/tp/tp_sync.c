@@ -12,6 +12,8 @@
 
 #define SYNC_EXCESS 1.02   /* a spindle that asks for so much more than the limit is refused */
 #define EXCESS_TIME 0.05   /* s of it while a thread is cut end the thread */
+#define IN_PHASE 0.01      /* of a pitch by which a thread may be off its place, or a step of a coarser count */
+#define IN_STEP 0.25       /* of the spindle's speed by which it may pass there */
 #define WAIT_TIME 1.0      /* s that a move waits for a spindle before the log says for what */
 #define INDEX_REVS 1.0     /* revolutions that an encoder may show right after its index, */
 #define INDEX_CYCLES 10    /* and what it turns in so many cycles more */
@@ -169,8 +171,17 @@ int tp_sync_start(TP_STRUCT *tp, struct planner *pl, const struct move_info *inf
         return 0;
     }
     follow_start(&pl->follow, info->sync.upr, acc, tp_follow_lead(pl, info), pl->cycle);
+    pl->out_of_phase = info->tap ? -1 : info->id;
     tp_mot.status->spindleSync = 1;
     return 1;
+}
+
+/* The axis is, `error` away, where the spindle wants it and does not just pass there. */
+static int in_phase(const struct planner *pl, const struct move_info *info, double error, double v)
+{
+    double speed = fabs(pl->follow.speed), count = fabs(pl->index.step) - speed * pl->cycle;
+
+    return fabs(error) <= fmax(IN_PHASE, count) * info->sync.upr && fabs(v / info->sync.upr - speed) <= IN_STEP * speed;
 }
 
 double tp_sync_speed(struct planner *pl)
@@ -185,8 +196,17 @@ double tp_sync_speed(struct planner *pl)
     watch_excess(pl, info, g->vmax);
     double reference = follow_reference(&pl->follow, info->sync.upr, tp_follow_lead(pl, info));
     double error = reference - (tj->s - g->s0) / g->stretch;
+    if (in_phase(pl, info, error, tj->speed / g->stretch)) pl->out_of_phase = -1;
     double v = follow_speed(error, info->sync.upr * pl->follow.speed, traj_acc(tj, tj->cur), pl->cycle);
     return v > 0 ? v : 0;
+}
+
+void tp_check_phase(struct planner *pl)
+{
+    if (pl->out_of_phase < 0) return;
+    rtapi_print_msg(RTAPI_MSG_ERR, "line %d: the thread ended before it was in phase with spindle %d: begin it farther away, or turn slower\n",
+                    pl->out_of_phase, pl->followed);
+    pl->out_of_phase = -1;
 }
 
 void tp_follow_moves(struct planner *pl, uint32_t from)
@@ -195,11 +215,14 @@ void tp_follow_moves(struct planner *pl, uint32_t from)
 
     for (; (int32_t)(tj->cur - from) > 0; from++) {
         const struct move_info *info = info_of(pl, from);
-        if (info->sync.mode == SYNC_POSITION && !info->tap)
+        if (info->sync.mode == SYNC_POSITION && !info->tap) {
+            tp_check_phase(pl);
             pl->follow.origin += traj_seg(tj, from)->prim.feed_len / info->sync.upr;
+        }
     }
     const struct move_info *now = info_of(pl, tj->cur);
     if (now->sync.mode != SYNC_POSITION && !pl->starting) {
+        tp_check_phase(pl);
         pl->followed = -1;
         tp_mot.status->spindleSync = 0;
     }

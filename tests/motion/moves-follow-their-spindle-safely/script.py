@@ -152,6 +152,17 @@ for rpm in (100, 200, 800):
     eq(m.violations(), [], "limits")
 spread = max((abs((a - b + 0.5) % 1 - 0.5)) for a in phases.values() for b in phases.values())
 eq(spread < 0.01, True, f"FP-021: start of the thread at {phases}")
+TOLD = ["line 1: the thread ended before it was in phase with spindle 0: begin it farther away, or turn slower\n"]
+for first, second, told in ((0.3, 0, TOLD), (0.3, 5, TOLD), (0.6, 0, []), (0.6, 5, []), (5, 0, [])):
+    back()
+    m.errors()
+    sync(PITCH)
+    line(0, -first, id=1)
+    if second:
+        line(0, -first - second)
+    sync(0)
+    watch(at_rest, fast=61)
+    eq(m.errors(), told, f"FP-021: {first} to get in phase, {second} behind it")
 print("threads begin at the same place at any speed")
 
 # FP-020: a pitch the axis can't keep, at the start and later
