@@ -48,8 +48,6 @@ bool IoControl::create(const linuxcnc::IniFile &ini) {
     stat_.io.aux.estop = 1;
     stat_.io.tool.pocketPrepped = -1;
     stat_.io.status = RCS_DONE;
-    if (!load_file("")) rcs_print("can't load tool table.\n");
-    news_.clear(); // it is loaded once more by init()
 
     comp_ = hal_init("iocontrol.0");
     if (comp_ < 0) {

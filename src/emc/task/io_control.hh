@@ -22,7 +22,7 @@ public:
     explicit IoControl(EMC_STAT &stat) : stat_(stat) {}
     ~IoControl();
 
-    // Tool data and the HAL component; false with a message on failure. Before motion starts.
+    // Empty tool data and the HAL component; false with a message on failure. Before motion starts.
     bool create(const linuxcnc::IniFile &ini);
     // Loads the tool table and resets the outputs.
     void init();

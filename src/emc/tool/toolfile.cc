@@ -215,7 +215,7 @@ int tooldata_load(const char *filename)
     if (!read_lines(filename, &lines)) {
         const std::string why = strerror(errno);
         fprintf(stderr, "tooldata_load: Failed to open tool table file '%s': %s\n", filename, why.c_str());
-        problem(filename, 0, 0, "the tool table can not be read: " + why);
+        report(std::string(filename) + ": the tool table can not be read: " + why);
         return -1;
     }
     tooldata_reset();

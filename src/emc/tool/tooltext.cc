@@ -163,14 +163,16 @@ bool replace_file(const std::string &filename, const std::string &text, bool bac
 
 void forget_problems() { problems.clear(); }
 
+void report(const std::string &text) { problems += text + "\n"; }
+
 void problem(const std::string &file, int line, int column, const std::string &what)
 {
     std::string text = file;
     if (line > 0) text += ":" + std::to_string(line);
     if (line > 0 && column > 0) text += ":" + std::to_string(column);
-    text += ": " + what + "\n";
-    fputs(text.c_str(), stderr);
-    problems += text;
+    text += ": " + what;
+    fprintf(stderr, "%s\n", text.c_str());
+    report(text);
 }
 
 } // namespace tooltext

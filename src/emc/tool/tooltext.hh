@@ -45,6 +45,8 @@ bool read_lines(const char *filename, std::vector<std::string> *lines);
 bool replace_file(const std::string &filename, const std::string &text, bool backup);
 
 void forget_problems();
+/// A line for tooldata_problems() alone: standard error has been told in other words.
+void report(const std::string &text);
 /// "FILE:LINE:COLUMN: WHAT" (column 0: none) to standard error and to tooldata_problems().
 void problem(const std::string &file, int line, int column, const std::string &what);
 
