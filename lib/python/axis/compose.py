@@ -47,6 +47,7 @@ class Composer:
         self.readout_lines = []
         self.marks = []                 # (homed, on a limit) of each line
         self.scene = Scene(back=rgb(self.colours["back"]))
+        self.place_planes()
 
     # -- contents --------------------------------------------------------------------------
 
@@ -59,9 +60,13 @@ class Composer:
             if not boxed:
                 self.drawings = [run(self.drawing, program, plane) for plane in ((0, 1) if self.s.foam else (-1,))]
             program.release_path()
-            if self.s.foam and self.logger:
-                self.logger.set_depth(self.foam_z / self.unit, self.foam_w / self.unit)
+            self.place_planes()
         self.camera.fit(*self.shown_box())
+
+    def place_planes(self):
+        """The live plot of a foam cutter has the heights of the planes."""
+        if self.s.foam and self.logger:
+            self.logger.set_depth(self.foam_z / self.unit, self.foam_w / self.unit)
 
     def drawing(self, program, plane):
         offset = [0.0] * 9

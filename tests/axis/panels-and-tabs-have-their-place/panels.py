@@ -41,6 +41,11 @@ def script(op):
         time.sleep(0.02)
     print("the guest got the window's id:", int(open(xid).read()) == app.x_window(f"{tcl.call('.pane.top.right', 'getframe', 'user_1')}.container"))
     print("forwards events to:", int(os.environ["AXIS_FORWARD_EVENTS_TO"]) == op.root.winfo_id())
+    with open(os.path.join(os.path.dirname(xid), "words")) as f:
+        words = f.read().split(None, 4)
+    grid = dict(zip(*[iter(map(str, tcl.splitlist(tcl.call("grid", "info", ".gladevcp"))))] * 2))
+    print("GladeVCP: column", grid["-column"], "row", grid["-row"], *words[:4], int(words[4].split()[0]) == app.x_window(".gladevcp"), words[4].split(None, 1)[1].strip(),
+          "| linked by", halcmd("-s", "show", "pin", "side.level").split()[-1])
     op.key("F4")
     op.key("F4")
     print("F4 twice:", tcl.call(".pane.top.right", "raise"))

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # What the settings of the INI file make of the screen.
 import os
+import struct
 import sys
 
 import linuxcnc
@@ -15,6 +16,18 @@ def words(value):
 def labels(op, menu):
     tcl = op.root.tk
     return [str(tcl.call(menu, "entrycget", i, "-label")) for i in range(1, int(tcl.call(menu, "index", "end")) + 1)]
+
+
+def foam(op):
+    """The planes of the program, of the cutters and of the live plot: heights in inches, of the plot in mm."""
+    p = op.app.preview
+    p.scene.live.clear()
+    p.add_tool()
+    points, count, in_planes = p.logger.points()
+    last = struct.unpack("3f4B3f4B", points[-32:])
+    xy, uv = (item.vertices[:, 2] for item in p.scene.live)
+    print("extents Z:", p.extents() and [round(corner[2], 4) for corner in p.extents()],
+          "tips of the cutters:", round(float(xy.max()), 4), round(float(uv.min()), 4), "plot:", in_planes, round(last[2], 4), round(last[9], 4))
 
 
 def common(op):
@@ -42,6 +55,10 @@ def common(op):
     print("jog order:", "".join(app.settings.jog_order()), "inverted:", app.jog_invert or "-", "queue:", v.max_queued_mdi_commands.get(),
           "editor:", v.has_editor.get(), "cone:", app.options.cone_size, app.options.cone_scaling, app.options.min_tool_diameter)
     print("file types:", [(name, list(patterns)) for name, patterns in app.loader.file_types()])
+    p = app.preview
+    print("drawn:", len(p.drawings), "box only:", p.boxed)
+    if app.settings.foam:
+        foam(op)
     print("start of the preview:", app.loader.init_codes(op.stat))
     for text in op.messages():
         print("told:", text)

@@ -1,6 +1,14 @@
 #!/bin/bash
 # The settings of [DISPLAY] and of the other sections that the screen reads: what each one does, and what is without it.
 . "$TEST_DIR/../lib/machine.sh"
+screen_test() { # as in the library, with more files beside the INI file
+    rm -rf machine home; cp -r "$top/configs/sim/$1" machine; mkdir home
+    sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" machine/$1.ini
+    sed -i "$ini_edit" machine/$1.ini
+    cp "$top/nc_files/star.ngc" machine/; cp "$top/nc_files/foam_wing.ngc" machine/wing.ngc; echo "set from_app yes" > machine/app.tcl; echo "a picture" > "machine/spaced name.spiral"
+    HOME=$PWD/home "$top/tests/lib/with-display" linuxcnc -r -D "$PWD/$2" machine/$1.ini > screen.log 2> screen.err < /dev/null
+    echo "status $?"
+}
 run() { # title, machine
     echo "== $1"
     screen_test $2 settings.py
@@ -12,6 +20,10 @@ ini_edit='/^OPEN_FILE/d' run "a mill as it is: the built-in program" mill
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = ""|' run "OPEN_FILE = \"\"" xyza
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = gone.ngc|' run "OPEN_FILE = gone.ngc" xyza
 ini_edit='s|^\[DISPLAY\]|&\nBACK_TOOL_LATHE = 1\nJOG_AXES = xz|' run "a lathe with the tool behind" lathe
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = star.ngc\nDEFAULT_ANGULAR_VELOCITY = 20\nMAX_ANGULAR_VELOCITY = 90\nMIN_ANGULAR_VELOCITY = 4\nPOSITION_UNITS = inch\nDRO_FORMAT_IN = %8.2f\nGRAPHICAL_MAX_FILE_SIZE = 0.0001|' run "speeds of a rotary axis, digits of inches, a file too large to draw" xyza
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = star.ngc\nDRO_FORMAT_MM = %s %s\nGRAPHICAL_MAX_FILE_SIZE = -1|' run "a format for two numbers, files of any size" mill
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = ""\nFOAM_Z = 2\nFOAM_W = -8|' run "planes of a foam cutter" foam
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = wing.ngc|' run "planes that are not set" foam
 
 cat > display <<INI
 CYCLE_TIME = 50
@@ -50,13 +62,5 @@ ini_edit="/^\[DISPLAY\]/,/^\[FILTER\]/{
 s|^PROGRAM_EXTENSION|PROGRAM_EXTENSION = .spiral,.sp A spiral\nspiral = $PWD/spiral.sh\n&|
 s|^\[AXIS_Y\]|&\nTOUCHOFF_ACTUAL = minus|
 s|^TASK = milltask|&\nMDI_QUEUED_COMMANDS = 3|"
-screen_test() { # as in the library, with more files beside the INI file
-    rm -rf machine home; cp -r "$top/configs/sim/$1" machine; mkdir home
-    sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" machine/$1.ini
-    sed -i "$ini_edit" machine/$1.ini
-    cp "$top/nc_files/star.ngc" machine/; echo "set from_app yes" > machine/app.tcl; echo "a picture" > "machine/spaced name.spiral"
-    HOME=$PWD/home "$top/tests/lib/with-display" linuxcnc -r -D "$PWD/$2" machine/$1.ini > screen.log 2> screen.err < /dev/null
-    echo "status $?"
-}
 EVERYTHING=1 run "everything set" mill
 rm -rf machine home display edit.sh spiral.sh screen.log screen.err
