@@ -30,9 +30,12 @@ printf '// ngcgui: info: from gcmc\n//ngcgui: -q\n//ngcgui: width = 3;5, the wid
 printf 'G21 G90\nG0 X0 Y0 Z0\n' > pre.ngc
 /usr/bin/python3 -c 'from PIL import Image; Image.new("RGB", (800, 400), "#c04020").save("subs/pocket.jpg")'
 /usr/bin/python3 forms.py
+printf '#!/bin/sh\necho "$@" > gcmc.words\necho "G0 X1" > "$2"\n' > gcmc; chmod +x gcmc; cp subs/pocket.jpg subs/shape.jpg
+printf '[DISPLAY]\nGCMC_INCLUDE_PATH = lib:~/own\nNGCGUI_SUBFILE_PATH = subs\nNGCGUI_SUBFILE = shape.gcmc\nNGCGUI_POSTAMBLE = :M9\nNGCGUI_OPTIONS = nom2 noiframe\nNGCGUI_FONT = Helvetica ten\n' > shape.ini
+PATH=$PWD:$PATH timeout 60 ../../lib/with-display /usr/bin/python3 settings.py
 for f in calls expanded; do rs274 -g $f.ngc -i subs.ini 2>&1 | sed -E 's/^ *[0-9]+ +N[.0-9]+ *//' | grep -E "STRAIGHT_FEED|DWELL|rror" > $f.run; echo "$f: $(grep -c FEED $f.run)"; done
 cmp calls.run expanded.run && head -3 calls.run
 timeout 60 ../../lib/with-display /usr/bin/python3 clicks.py
 cat auto.ngc
-rm -rf subs pre.ngc *.run calls.ngc expanded.ngc auto.ngc subs.ini \
+rm -rf subs pre.ngc *.run calls.ngc expanded.ngc auto.ngc subs.ini shape.ini gcmc gcmc.words \
     /tmp/ngcgui_bak{,-$UID}/{calls,expanded,auto}.ngc 2>/dev/null

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # FP-183, FP-185: coordinates are set in the system in force; the form names it and shows the old values.
+import tkinter as tk
 from pathlib import Path
 
 import linuxcnc
@@ -66,6 +67,19 @@ def messages():
 wait()
 print(root.title(), root.tk.call(".mine", "cget", "-text"))
 print({title: [menu.entrycget(i, "label") for i in range(menu.index("end") + 1) if menu.type(i) != "separator"] for title, menu in w.menus.items()})
+print("position:", w.font.actual("family"), w.font.cget("size"), w.font.cget("slant"), str(w.values[0].cget("font")) == w.font.name)
+w.help()
+top = next(t for t in root.winfo_children() if isinstance(t, tk.Toplevel))
+print("help:", next(t for t in top.winfo_children() if isinstance(t, tk.Text)).get("1.0", "end").strip())
+top.destroy()
+button = next(iter(w.state_buttons.values()))
+button.event_generate("<Enter>")
+print("balloon:", w.tip.winfo_children()[0].cget("text"), end=" | ")
+button.event_generate("<Leave>")
+print(w.tip, end=" | ")
+w.balloons.set(False)
+button.event_generate("<Enter>")
+print("off:", w.tip)
 print(state())
 key("F1")
 key("F2")

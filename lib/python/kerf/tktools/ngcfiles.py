@@ -269,8 +269,23 @@ def backup_folders():
     return BACKUP, Path(f"{BACKUP}-{os.getuid()}")
 
 
+def folders_of(path):
+    """The folders of a list with colons, or of None."""
+    return [os.path.expanduser(word.strip()) for word in (path or "").split(":") if word.strip()]
+
+
 def start_folder(ini_find):
     """Where subroutine files are looked for: [RS274NGC]SUBROUTINE_PATH, [DISPLAY]PROGRAM_PREFIX, the present folder."""
     paths = ini_find("RS274NGC", "SUBROUTINE_PATH") or ""
     first = paths.split(":")[0].strip() or ini_find("DISPLAY", "PROGRAM_PREFIX") or "."
     return Path(os.path.expanduser(first))
+
+
+def find_file(name, ini_find, base="."):
+    """A file that the INI file names: as it is, below [DISPLAY]NGCGUI_SUBFILE_PATH, [RS274NGC]SUBROUTINE_PATH or
+    [DISPLAY]PROGRAM_PREFIX, relative to base; the name itself where there is none."""
+    if not name or name.startswith(":") or Path(name).exists():
+        return name
+    paths = [ini_find("DISPLAY", "NGCGUI_SUBFILE_PATH"), ini_find("RS274NGC", "SUBROUTINE_PATH"), ini_find("DISPLAY", "PROGRAM_PREFIX"), "."]
+    places = (Path(base, folder, name) for path in paths for folder in folders_of(path))
+    return next((str(place) for place in places if place.is_file()), name)

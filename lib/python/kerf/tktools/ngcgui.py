@@ -8,13 +8,12 @@ import os
 import subprocess
 import sys
 import tkinter as tk
-import tkinter.font
 from pathlib import Path
 from tkinter import filedialog, messagebox, ttk
 
 from .. import tkstyle
 from ..language import _, N_
-from .ngcfiles import NotUsable, Program, form_of, is_value, start_folder
+from .ngcfiles import NotUsable, Program, find_file, folders_of, form_of, is_value, start_folder
 from .widgets import Scrolled
 
 TITLE = "ngcgui"
@@ -46,13 +45,39 @@ class Page:
         self.status = ttk.Label(self.frame, anchor="w", padding=px(4), relief="sunken")
         self.status.pack(side="bottom", fill="x")
         self.status.bind("<Configure>", lambda event: self.status.configure(wraplength=event.width - px(12)))
+        self.font = self._font()
         self._controls()
+        self.dress(self.frame)
         self.entries = Scrolled(self.frame, style)
         self.entries.pack(side="left" if not options.vert else "top", fill="both", expand=True, padx=px(6))
         if options.subfile:
             self.read(options.subfile)
         else:
             self.say(_("Choose a subfile"))
+
+    def _font(self):
+        """The font that is asked for, or None."""
+        if not self.o.font:
+            return None
+        try:
+            self.parent.tk.call("font", "actual", self.o.font)
+        except tk.TclError as error:
+            print(f"ngcgui: font {self.o.font}: {error}", file=sys.stderr)
+            return None
+        for kind in ("TButton", "TCheckbutton"):
+            ttk.Style(self.parent).configure(f"Ngcgui.{kind}", font=self.o.font)
+        return self.o.font
+
+    def dress(self, widget):
+        """Gives the page's font to a widget and what is in it."""
+        if self.font is None:
+            return
+        if isinstance(widget, (ttk.Button, ttk.Checkbutton)):
+            widget.configure(style=f"Ngcgui.{widget.winfo_class()}")
+        elif "font" in widget.keys():
+            widget.configure(font=self.font)
+        for child in widget.winfo_children():
+            self.dress(child)
 
     def _controls(self):
         px = self.style.px
@@ -96,7 +121,7 @@ class Page:
     def read(self, path):
         """Shows the form of a file; the old one stays when it is not usable."""
         try:
-            form = form_of(path, (self.find("DISPLAY", "GCMC_INCLUDE_PATH") or "").split(":") if str(path).endswith(".gcmc") else ())
+            form = form_of(path, folders_of(self.find("DISPLAY", "GCMC_INCLUDE_PATH")))
         except (NotUsable, OSError) as error:
             self.say(str(error), True)
             self.show_state()
@@ -129,6 +154,7 @@ class Page:
                 entry.bind(key, lambda event, r=row - 1, s=step: self.rows[(r + s) % len(self.rows)][1].focus_set())
             self.rows.append((parameter, entry, text))
             self.colour(text, entry)
+        self.dress(inner)
         self.show_picture()
         self.show_state()
 
@@ -359,17 +385,10 @@ def main(arguments):
         take_ini(o, find)
     root = tkstyle.open_display("ngcgui", "Ngcgui")
     style = tkstyle.apply(root)
-    if o.font:
-        try:
-            tkinter.font.nametofont("TkDefaultFont", root).configure(**tkinter.font.Font(root, font=o.font).actual())
-        except tk.TclError as error:
-            print(f"ngcgui: {error}", file=sys.stderr)
     root.title(TITLE)
-    folder = Path(o.directory) if o.directory else start_folder(find)
+    look = (lambda section, name: o.directory if name == "NGCGUI_SUBFILE_PATH" else None) if o.directory else find
     for name in ("subfile", "preamble", "postamble"):
-        value = getattr(o, name)
-        if value and not value.startswith(":") and not Path(value).exists() and (folder / value).exists():
-            setattr(o, name, str(folder / value))
+        setattr(o, name, find_file(getattr(o, name), look, Path(o.ini).parent if o.ini and not o.directory else "."))
     page = Page(root, style, o, find, machine_position())
     page.frame.pack(fill="both", expand=True)
     page.bind_keys(root.bind_all)

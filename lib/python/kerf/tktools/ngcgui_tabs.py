@@ -11,7 +11,7 @@ from tkinter import messagebox, ttk
 from .. import tkstyle
 from ..language import _, N_
 from .ngcgui import DEFAULT_OUT, Page, options, take_ini
-from .ngcfiles import start_folder
+from .ngcfiles import find_file
 
 COMMAND = "::ngcgui::embed"
 CUSTOM = _("Custom")
@@ -33,19 +33,13 @@ class Tabs:
     def find(self, section, name):
         return self.app.ini.find(section, name)
 
-    def place(self, name):
-        """A file of the INI file: as it is, or in the folder of subroutines."""
-        if not name or name.startswith(":") or Path(name).exists():
-            return name
-        folder = Path(self.app.settings.ini_path).resolve().parent / start_folder(self.find)
-        return str(folder / name) if (folder / name).exists() else name
-
     def add(self, subfile):
         """One more tab."""
         o = options([])
         o.autosend = "noauto" not in self.words
         take_ini(o, lambda s, n: None if n == "NGCGUI_SUBFILE" else self.find(s, n))
-        o.subfile, o.preamble, o.postamble = (self.place(n) for n in (subfile, o.preamble, o.postamble))
+        base = Path(self.app.settings.ini_path).resolve().parent
+        o.subfile, o.preamble, o.postamble = (find_file(n, self.find, base) for n in (subfile, o.preamble, o.postamble))
         o.output = str(Path(self.folder.name) / DEFAULT_OUT)
         title = Path(subfile).stem if subfile else CUSTOM
         self.count += 1
@@ -98,6 +92,7 @@ class EmbeddedPage(Page):
             if not option or option not in tabs.words:
                 self.buttons[text] = ttk.Button(row, text=_(text), takefocus=False, command=action)
                 self.buttons[text].pack(side="left", padx=1)
+        self.dress(row)
 
     def position(self, letter):
         """What AXIS shows of an axis."""

@@ -135,13 +135,16 @@ class Window:
         px = self.style.px
         box = ttk.Frame(body)
         box.pack(side="left", fill="both", expand=True)
-        words = (self.m.ini.find("DISPLAY", "POSITION_FONT") or "").split()
+        wanted = self.m.ini.find("DISPLAY", "POSITION_FONT")
         self.font = tkinter.font.Font(self.root, family="DejaVu Sans Mono", size=-px(26), weight="bold")
-        if words:
+        if wanted:
             try:
-                self.font.configure(**tkinter.font.Font(self.root, font=" ".join(words)).actual())
-            except tk.TclError:
-                pass
+                self.font.configure(**tkinter.font.Font(self.root, font=wanted).actual())
+                size = self.root.tk.splitlist(wanted)[1:2]
+                if size and size[0].lstrip("-").isdigit():      # actual() has rounded pixels to points
+                    self.font.configure(size=int(size[0]))
+            except tk.TclError as error:
+                print(f"tklinuxcnc: [DISPLAY]POSITION_FONT: {error}", file=sys.stderr)
         self.values, self.names = [], []
         for row, name in enumerate(self.m.names()):
             button = ttk.Radiobutton(box, value=row, variable=self.selected, takefocus=False, text=name)
@@ -414,6 +417,8 @@ class Window:
     def help(self):
         name = self.m.ini.find("DISPLAY", "HELP_FILE")
         path = next((p for p in (self.m.path.parent / name, Path(name)) if p.is_file()), None) if name else None
+        if name and path is None:
+            print(f"tklinuxcnc: [DISPLAY]HELP_FILE: there is no file {name}", file=sys.stderr)
         self.popups.text(_("Help"), path.read_text(errors="replace") if path else HELP)
 
     def about(self):
