@@ -4,7 +4,8 @@
  *
  * In:     jog targets, axis limits, joint limits
  * Out:    positions of nine axes with offsets
- * Thread: servo; a jog that meets a joint's limit calls kinematicsInverse BISECT + 4 times once
+ * Thread: servo; up to 3 times 2 + 3 * 3 calls of kinematicsInverse per moving planner, and once BISECT + 4 for a jog
+ *         that meets a joint's limit
  * Method: position and offset of an axis are two planners whose stopping points
  *         together stay within the axis' limits; the point where all axes would
  *         stop must also lie within the joints' limits.
@@ -13,8 +14,10 @@
 #include <string.h>
 #include "motion_priv.h"
 
+#define PLANNERS (2 * EMCMOT_MAX_AXIS) /* of position and of offset */
 #define STOP_CYCLES 12      /* jerk T^3 of these: rounding of a stop to whole cycles */
 #define STOP_ACC_PART 0.5   /* of acc T^2: the same without a limit of jerk */
+#define TURN_ACC_PART 0.13  /* of acc T^2: so far between two cycles the parabola through a trapezoidal stop may lie */
 #define EDGE 2.0            /* of the way to a stop: must be within reach, too */
 #define AHEAD_CYCLES 3      /* of its way: so far beyond its stop a jog may still meet a limit */
 #define BISECT 36           /* that way to parts of 1e-9 */
@@ -192,63 +195,122 @@ int joints_go_outside(const struct motion *m, const double *q, double eps)
     return 0;
 }
 
-/* Seconds until the last axis stands. */
-static double stop_time(const struct motion *m)
+/* Where the axes are after t seconds of a stop; beyond > 1: so much farther than its end. */
+static void on_way_to_stop(const struct motion *m, const simple_tp_t *tp, double t, double beyond, EmcPose *way)
 {
-    double time = 0.0, T = m->traj_period;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
-        time = fmax(time, fmax(simple_tp_stop_time(&m->axis[n].teleop_tp, T), simple_tp_stop_time(&m->axis[n].ext_offset_tp, T)));
-    return time;
+    *way = m->status->carte_pos_cmd;
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        const simple_tp_t *p = &tp[2 * n], *e = p + 1;
+        *emcPoseAxis(way, n) = p->curr_pos + e->curr_pos +
+                               beyond * (simple_tp_stop_way(p, m->traj_period, t) + simple_tp_stop_way(e, m->traj_period, t));
+    }
 }
 
-/* Where the axes are after that part of the time to a stop (with other parts of their limits, if any); beyond 1: so
- * much farther. */
-static void on_way_to_stop(const struct motion *m, const struct teleop_scale *scale, double part, EmcPose *way)
+/* The times at which a planner on its way to a stop brakes otherwise or stands, ascending, by more than a cycle apart;
+ * returns how many. Between two of them the axes' accelerations change steadily. */
+static int stop_times(const simple_tp_t *tp, double T, double *times)
 {
-    double T = m->traj_period, time = stop_time(m);
+    int count = 0, kept = 0;
+    for (int i = 0; i < PLANNERS; i++) {
+        double phases[SIMPLE_TP_PHASES];
+        simple_tp_stop_times(&tp[i], T, phases);
+        for (int k = 0; k < SIMPLE_TP_PHASES; k++) {
+            int at = count++;
+            for (; at > 0 && times[at - 1] > phases[k]; at--)
+                times[at] = times[at - 1];
+            times[at] = phases[k];
+        }
+    }
+    for (int i = 0; i < count; i++) /* of times close together the last */
+        if (kept > 0 && times[i] - times[kept - 1] < 1.5 * T)
+            times[kept - 1] = times[i];
+        else if (times[i] > 0.0)
+            times[kept++] = times[i];
+    return kept;
+}
+
+/* Value of the cubic with the values q at 0, 1, 2, 3. */
+static double cubic_at(const double q[4], double u)
+{
+    double d1 = q[1] - q[0], d2 = q[2] - q[1] - d1, d3 = q[3] - 3.0 * (q[2] - q[1]) - q[0];
+    return q[0] + u * (d1 + 0.5 * (u - 1.0) * (d2 + (u - 2.0) * d3 / 3.0));
+}
+
+/* Lowest and highest value of that cubic between 0 and 3, where they lie inside: outmost[2]; else q[0]. */
+static void turning_points(const double q[4], double outmost[2])
+{
+    double d1 = q[1] - q[0], d2 = q[2] - q[1] - d1, d3 = q[3] - 3.0 * (q[2] - q[1]) - q[0];
+    double a = 0.5 * d3, b = d2 - d3, c = d1 - 0.5 * d2 + d3 / 3.0, root = b * b - 4.0 * a * c; /* of the slope */
+    double h = -0.5 * (b + copysign(sqrt(fmax(0.0, root)), b)), at[2] = {c / h, h / a};
+    for (int i = 0; i < 2; i++)
+        outmost[i] = root > 0.0 && at[i] > 0.0 && at[i] < 3.0 ? cubic_at(q, at[i]) : q[0];
+}
+
+/* 1 when a joint turns round outside its limits between four places. (A turn of less than what a stop is rounded by
+ * to whole cycles is none.) */
+static int turns_outside(struct motion *m, double q[4][EMCMOT_MAX_JOINTS])
+{
+    double turns[2][EMCMOT_MAX_JOINTS], T = m->traj_period;
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) {
+        double places[4] = {q[0][j], q[1][j], q[2][j], q[3][j]}, outmost[2];
+        double lo = fmin(q[0][j], q[3][j]), hi = fmax(q[0][j], q[3][j]), rounding = TURN_ACC_PART * m->joint[j].acc_limit * T * T;
+        turning_points(places, outmost);
+        for (int i = 0; i < 2; i++)
+            turns[i][j] = outmost[i] > hi + rounding || outmost[i] < lo - rounding ? outmost[i] : q[3][j];
+    }
+    return joints_go_outside(m, turns[0], TELEOP_EPSILON) || joints_go_outside(m, turns[1], TELEOP_EPSILON);
+}
+
+/* 1 when a joint leaves its limits, or the pose its reach, while the planners come to rest. Axes stand at different
+ * times, so that a joint which the slower one leads back may go out on the way: it turns between two of the times.
+ * rest: the joints at the end. */
+static __attribute__((noinline)) int stop_leaves(struct motion *m, const simple_tp_t *tp, double *rest)
+{
+    double q[4][EMCMOT_MAX_JOINTS], times[PLANNERS * SIMPLE_TP_PHASES], t = 0.0;
+    int count = stop_times(tp, m->traj_period, times), met = limit_is_met(m);
+    KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
+    EmcPose way;
+    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
+        q[3][j] = m->joint[j].coarse_pos;
+    on_way_to_stop(m, tp, 0.0, 1.0, &way);
+    if (kinematicsInverse(&way, q[3], &m->iflags, &fflags) != 0 || joints_go_outside(m, q[3], TELEOP_EPSILON))
+        return 1;
+    for (int i = 0; i < count; i++) {
+        memcpy(q[0], q[3], sizeof(q[0]));
+        for (int k = 1; k <= 3; k++) {
+            memcpy(q[k], q[k - 1], sizeof(q[k]));
+            on_way_to_stop(m, tp, k == 3 ? times[i] : t + k * (times[i] - t) / 3.0, 1.0, &way);
+            if (kinematicsInverse(&way, q[k], &m->iflags, &fflags) != 0 || joints_go_outside(m, q[k], TELEOP_EPSILON))
+                return 1;
+        }
+        if (!met && turns_outside(m, q))
+            return 1;
+        t = times[i];
+    }
+    memcpy(rest, q[3], sizeof(q[3]));
+    return 0;
+}
+
+/* 1 when the axes, stopped from now on (with other parts of their limits, if any), come to rest at a place the joints
+ * can be at, over places they can be at, and not so near the edge of what can be reached that they could not brake there. */
+static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
+{
+    simple_tp_t tp[PLANNERS];
+    double q[EMCMOT_MAX_JOINTS];
+    KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
+    EmcPose way;
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         struct axis a = m->axis[n];
         if (scale)
             teleop_limits(&a, scale);
-        const simple_tp_t *p = &a.teleop_tp, *e = &a.ext_offset_tp;
-        double stop = part > 1.0 ? part * (simple_tp_stop_distance(p, T) + simple_tp_stop_distance(e, T))
-                                 : simple_tp_stop_way(p, T, part * time) + simple_tp_stop_way(e, T, part * time);
-        *emcPoseAxis(way, n) = p->curr_pos + e->curr_pos + stop;
+        tp[2 * n] = a.teleop_tp;
+        tp[2 * n + 1] = a.ext_offset_tp;
     }
-}
-
-/* Where joints turn round on their way over three places, as on a parabola; those that do not: the middle place. */
-static void outmost_between(const double *a, const double *b, const double *c, double *q)
-{
-    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) {
-        double slope = 0.5 * (c[j] - a[j]), bend = a[j] - 2.0 * b[j] + c[j];
-        q[j] = fabs(slope) < fabs(bend) ? b[j] - 0.5 * slope * slope / bend : b[j];
-    }
-}
-
-/* 1 when the axes, stopped from now on, come to rest at a place the joints can be at, over places
- * they can be at, and not so near the edge of what can be reached that they could not brake there. */
-static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
-{
-    double q[EMCMOT_MAX_JOINTS], before[2][EMCMOT_MAX_JOINTS], outmost[EMCMOT_MAX_JOINTS];
-    int met = limit_is_met(m);
-    EmcPose way = m->status->carte_pos_cmd;
-    KINEMATICS_FORWARD_FLAGS fflags = m->fflags;
-    for (int j = 0; j < EMCMOT_MAX_JOINTS; j++)
-        q[j] = before[0][j] = before[1][j] = m->joint[j].coarse_pos;
-    for (int i = 1; i <= STOP_PLACES; i++) {
-        on_way_to_stop(m, scale, (double)i / STOP_PLACES, &way);
-        if (kinematicsInverse(&way, q, &m->iflags, &fflags) != 0 || joints_go_outside(m, q, TELEOP_EPSILON))
-            return 0;
-        outmost_between(before[0], before[1], q, outmost);
-        if (i > 1 && !met && joints_go_outside(m, outmost, TELEOP_EPSILON))
-            return 0;
-        memcpy(before[0], before[1], sizeof q);
-        memcpy(before[1], q, sizeof q);
-    }
+    if (stop_leaves(m, tp, q))
+        return 0;
     if (m->kin_type == KINEMATICS_IDENTITY)
         return 1;
-    on_way_to_stop(m, scale, EDGE, &way);
+    on_way_to_stop(m, tp, INFINITY, EDGE, &way);
     return kinematicsInverse(&way, q, &m->iflags, &fflags) == 0;
 }
 

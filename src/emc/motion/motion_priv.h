@@ -89,8 +89,6 @@ struct motion_pins {
     struct spindle_pins spindle[EMCMOT_MAX_SPINDLES];
 };
 
-#define STOP_PLACES 4 /* looked at on the way to a stop of several axes, which is no straight line */
-
 /* ---- state ---------------------------------------------------------------- */
 
 struct teleop_scale {

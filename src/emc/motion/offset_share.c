@@ -17,6 +17,7 @@
 #include "motion_priv.h"
 
 #define PLACES 3
+#define STOP_PLACES 4       /* looked at on the way to a stop of several offsets, which is no straight line */
 #define AHEAD 1.5          /* of the way to a stop, from place to place: limits farther on are met in time */
 #define CYCLES 3           /* the same, of the present speed */
 #define STEP_S 0.005       /* s: of the differences along a motion */
@@ -201,10 +202,12 @@ static int at_end_of_reach(struct motion *m, const EmcPose *there)
 int offset_share_leaves(struct motion *m, const EmcPose *pose)
 {
     EmcPose at = *pose;
-    double q[EMCMOT_MAX_JOINTS], T = m->traj_period, time = 0.0;
+    double q[EMCMOT_MAX_JOINTS], times[SIMPLE_TP_PHASES], T = m->traj_period, time = 0.0;
     int places = m->kin_type == KINEMATICS_IDENTITY ? 1 : STOP_PLACES;
-    for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
-        time = fmax(time, simple_tp_stop_time(&m->axis[n].ext_offset_tp, T));
+    for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
+        simple_tp_stop_times(&m->axis[n].ext_offset_tp, T, times);
+        time = fmax(time, times[SIMPLE_TP_PHASES - 1]);
+    }
     for (int i = places > 1 ? 0 : 1; i <= places; i++) { /* offsets that stop at different times go a bent way */
         at = *pose;
         for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {

@@ -56,28 +56,44 @@ static void trapezoidal_step(simple_tp_t *tp, double T)
     tp->curr_jerk = 0.0;
 }
 
-/* Displacement while going from (v, a) to rest with jerk j and acceleration limit amax. */
+/* A stop from (v, a) with jerk j and acceleration limit amax: a falls to -peak, stays there, returns to 0. */
+struct stop {
+    double sign;       /* v and a are those of the mirrored problem */
+    double v, a, j, peak;
+    double t1, t2, t3; /* s: of the three phases */
+};
+
+static struct stop stop_of(double v, double a, double j, double amax)
+{
+    struct stop p = {v + a * fabs(a) / (2.0 * j) >= 0.0 ? 1.0 : -1.0, v, a, j, 0.0, 0.0, 0.0, 0.0};
+    p.v *= p.sign;
+    p.a *= p.sign;
+    p.peak = sqrt(fmax(0.0, j * p.v + 0.5 * p.a * p.a));
+    if (p.peak > amax) {
+        double lim = fmax(amax, -p.a); /* the acceleration may have been higher before */
+        p.peak = lim;
+        p.t2 = fmax(0.0, (p.v + 0.5 * p.a * p.a / j - lim * lim / j) / lim);
+    }
+    p.t1 = fmax(0.0, (p.a + p.peak) / j);
+    p.t3 = p.peak / j;
+    return p;
+}
+
+/* Displacement after t seconds of it; at any time beyond its end: to rest. */
+static double stop_way(const struct stop *p, double t)
+{
+    double t1 = fmin(t, p->t1), t2 = fmax(0.0, fmin(t - p->t1, p->t2)), t3 = fmax(0.0, fmin(t - p->t1 - p->t2, p->t3));
+    double d = t1 * (p->v + t1 * (0.5 * p->a - p->j * t1 / 6.0));
+    double v1 = p->v + t1 * (p->a - 0.5 * p->j * t1), v2 = v1 - p->peak * t2;
+    d += t2 * (v1 - 0.5 * p->peak * t2);
+    d += t3 * (v2 + t3 * (-0.5 * p->peak + p->j * t3 / 6.0));
+    return p->sign * d;
+}
+
 static double stop_displacement(double v, double a, double j, double amax)
 {
-    double s = v + a * fabs(a) / (2.0 * j) >= 0.0 ? 1.0 : -1.0;
-    double t1, t2 = 0.0, t3, peak, d, v1, v2;
-    v *= s;
-    a *= s;
-    /* a falls to -peak, stays there, returns to 0 */
-    peak = sqrt(fmax(0.0, j * v + 0.5 * a * a));
-    if (peak > amax) {
-        double lim = fmax(amax, -a); /* the acceleration may have been higher before */
-        peak = lim;
-        t2 = fmax(0.0, (v + 0.5 * a * a / j - lim * lim / j) / lim);
-    }
-    t1 = fmax(0.0, (a + peak) / j);
-    t3 = peak / j;
-    d = t1 * (v + t1 * (0.5 * a - j * t1 / 6.0));
-    v1 = v + t1 * (a - 0.5 * j * t1);
-    d += t2 * (v1 - 0.5 * peak * t2);
-    v2 = v1 - peak * t2;
-    d += t3 * (v2 + t3 * (-0.5 * peak + j * t3 / 6.0));
-    return s * d;
+    struct stop p = stop_of(v, a, j, amax);
+    return stop_way(&p, INFINITY);
 }
 
 /* Farthest point of that stop: beyond the final one when the brake holds longer than needed. */
@@ -200,25 +216,41 @@ void simple_tp_update(simple_tp_t *tp, double period)
     trapezoidal_step(tp, period);
 }
 
-double simple_tp_stop_distance(const simple_tp_t *tp, double period)
+static struct stop jerk_limited_stop(const simple_tp_t *tp)
 {
-    if (tp->max_jerk > SIMPLE_TP_MIN_JERK)
-        return stop_displacement(tp->curr_vel, tp->curr_acc, STOP_JERK * tp->max_jerk, STOP_ACC * tp->max_acc);
-    double v = fabs(tp->curr_vel), dv = tp->max_acc * period;
-    double n = dv > 0.0 ? ceil(v / dv) - 1.0 : 0.0; /* cycles that still move */
-    double d = n > 0.0 ? (n * v - 0.5 * dv * n * (n + 1.0)) * period : 0.0;
-    return tp->curr_vel < 0.0 ? -d : d;
+    return stop_of(tp->curr_vel, tp->curr_acc, STOP_JERK * tp->max_jerk, STOP_ACC * tp->max_acc);
 }
 
-double simple_tp_stop_time(const simple_tp_t *tp, double period)
+/* Cycles of a trapezoidal stop that still move. */
+static double stop_cycles(const simple_tp_t *tp, double period)
 {
-    double v = fabs(tp->curr_vel);
-    return v > 0.0 ? 2.0 * fabs(simple_tp_stop_distance(tp, period)) / v : 0.0;
+    double dv = tp->max_acc * period;
+    return dv > 0.0 ? fmax(0.0, ceil(fabs(tp->curr_vel) / dv) - 1.0) : 0.0;
+}
+
+double simple_tp_stop_distance(const simple_tp_t *tp, double period)
+{
+    return simple_tp_stop_way(tp, period, INFINITY);
 }
 
 double simple_tp_stop_way(const simple_tp_t *tp, double period, double t)
 {
-    double all = simple_tp_stop_distance(tp, period), time = simple_tp_stop_time(tp, period);
-    double left = t < time ? 1.0 - t / time : 0.0;
-    return all * (1.0 - left * left);
+    if (tp->max_jerk > SIMPLE_TP_MIN_JERK) {
+        struct stop p = jerk_limited_stop(tp);
+        return stop_way(&p, t);
+    }
+    double v = fabs(tp->curr_vel), dv = tp->max_acc * period, n = fmin(t / period, stop_cycles(tp, period));
+    double d = (n * v - 0.5 * dv * n * (n + 1.0)) * period;
+    return tp->curr_vel < 0.0 ? -d : d;
+}
+
+void simple_tp_stop_times(const simple_tp_t *tp, double period, double times[SIMPLE_TP_PHASES])
+{
+    times[0] = times[1] = times[2] = stop_cycles(tp, period) * period;
+    if (tp->max_jerk > SIMPLE_TP_MIN_JERK) {
+        struct stop p = jerk_limited_stop(tp);
+        times[0] = p.t1;
+        times[1] = p.t1 + p.t2;
+        times[2] = p.t1 + p.t2 + p.t3;
+    }
 }

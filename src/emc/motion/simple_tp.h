@@ -21,6 +21,8 @@ extern "C" {
 /* Bound of the overshoot of a jerk-limited approach, in parts of max_jerk T^3. */
 #define SIMPLE_TP_OVERSHOOT 0.05
 
+#define SIMPLE_TP_PHASES 3 /* of a stop: the brake comes, stays, goes */
+
 typedef struct simple_tp {
     double pos_cmd;   /* target, may change at any time */
     double max_vel;   /* > 0; lowering it decelerates with max_acc */
@@ -42,9 +44,10 @@ void simple_tp_adopt(simple_tp_t *tp, double pos, double vel, double acc);
 
 /* [any] Signed distance (units) from here to rest when stopping now. */
 double simple_tp_stop_distance(const simple_tp_t *tp, double period);
-/* [any] Seconds that this stop takes, and the distance after t of them, as with a constant brake. */
-double simple_tp_stop_time(const simple_tp_t *tp, double period);
+/* [any] Signed distance after t >= 0 seconds of this stop. */
 double simple_tp_stop_way(const simple_tp_t *tp, double period, double t);
+/* [any] Ends of its phases, s from now, ascending: the last is its end. */
+void simple_tp_stop_times(const simple_tp_t *tp, double period, double times[SIMPLE_TP_PHASES]);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,2 @@
+#!/bin/bash
+exec ../lib/bench-test script.py
