@@ -15,6 +15,10 @@ def halcmd(*words):
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, tcl = op.app, op.root.tk
+    end = time.monotonic() + 60          # the panel of the other program comes in real time
+    while op.root.state() != "normal" and time.monotonic() < end:
+        op.wait(0.02)
+        time.sleep(0.02)
     op.root.geometry("1000x700")
     op.wait(0.3)
     print("messages:", [m.splitlines()[0].split("/")[0] for m in op.messages()])
