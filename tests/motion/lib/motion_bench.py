@@ -55,6 +55,7 @@ class Machine:
         lines += list(hal_lines)
         self.limits = dict(vel=vel, acc=acc, jerk=jerk, low=low, high=high)
         clock.join("motion-bench", 900)
+        refuse_used_instance()
         run_realtime("start")
         atexit.register(self.close)
         halcmd(lines)
@@ -222,6 +223,12 @@ def halcmd(lines):
     if done.returncode:
         raise RuntimeError(f"halcmd: {done.stdout}")
     return done.stdout
+
+
+def refuse_used_instance():
+    """Two machines in one instance would take each other's pins away."""
+    if clock.run(["realtime", "status"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
+        raise SystemExit(f"instance {os.environ.get('KERF_INSTANCE') or '(default)'} is in use: end its session, or set KERF_INSTANCE")
 
 
 def run_realtime(word):
