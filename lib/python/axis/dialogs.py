@@ -4,6 +4,8 @@
 import tkinter as tk
 from tkinter import ttk
 
+from kerf.numbertext import with_point
+
 SYSTEMS = ("P0  Current", "P1  G54", "P2  G55", "P3  G56", "P4  G57", "P5  G58", "P6  G59", "P7  G59.1", "P8  G59.2", "P9  G59.3")
 
 
@@ -112,9 +114,12 @@ class Touchoff(Modal):
         self.entry.icursor("end")
         self.validate()
 
+    def text(self):
+        return with_point(self.value.get())
+
     def validate(self):
         """Shows the value or what is wrong with it; true when it can be used."""
-        number, problem = self.check(self.value.get())
+        number, problem = self.check(self.text())
         good = problem is None
         self.shown.configure(text=f"= {number:f} {self.unit}" if good else problem, foreground=self.ink if good else "#b3261e")
         self.ok.configure(state="normal" if good else "disabled")
@@ -122,4 +127,4 @@ class Touchoff(Modal):
 
     def accept(self):
         if self.validate():
-            self.answer((self.value.get(), self.system.get().split()[0] if self.system else None))
+            self.answer((self.text(), self.system.get().split()[0] if self.system else None))

@@ -43,6 +43,11 @@ def script(op):
     op.wait(0.5)
     print("touch off:", app.vars.touch_off_system.get(), "x of G55 is now",
           round(stat().actual_position[0] - g55_of_x(op), 3))
+    for text in "120,5", "1.234,5":      # FP-175: a decimal comma, and what might be either
+        op.answer_touchoff(text, "P2")
+        op.key("End")
+        op.wait(0.5)
+        print("touch off:", text, "x of G55 is now", round(stat().actual_position[0] - g55_of_x(op), 3))
     op.answer(1)
     op.key("F5")
     op.type("G54 G0 X5 Y5 Z100")

@@ -1,5 +1,5 @@
 #!/bin/bash
-# FP-175: where the decimal sign is a comma, programs read and write numbers with a point all the same; a
+# FP-175 (entry fields: the tests of touch-off, tooledit and halshow): where the decimal sign is a comma, programs read and write numbers with a point all the same; a
 # comma in a number is pointed out, never taken for thousands.
 rm -rf work; mkdir work; trap 'rm -rf work' EXIT
 localedef -c -i es_ES -f UTF-8 work/es_ES.UTF-8 2> /dev/null

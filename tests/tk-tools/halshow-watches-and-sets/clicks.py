@@ -88,7 +88,7 @@ print(shown("freebit"), hal.get_s("freebit"))
 hand.click(button("freebit", "Tgl"))
 print(hal.get_s("freebit"))
 print("greyed:", str(button("mux2.0.in0", "Set val").cget("state")), "and no button for the output:", view.rows[place("and2.1.out")].widgets)
-for name, typed in (("count", "0x10"), ("count", "3000000000"), ("count", "1.5"), ("siggen.0.frequency", "2.25"), ("siggen.0.frequency", "fast")):
+for name, typed in (("count", "0x10"), ("count", "3000000000"), ("count", "1.5"), ("siggen.0.frequency", "2,25"), ("siggen.0.frequency", "fast")):
     view.ask_value = lambda *a, t=typed, **k: t
     hand.click(button(name, "Set val"))
     print(f"{name} {typed}:", said())

@@ -25,7 +25,7 @@ print([h.cget("text") for h in sheet.heads], len(window.table.rows))
 print("reload offered:", bool(buttons["ReLoadTable"].winfo_manager()), "delete:", state("Delete"))
 hand.click(cell(1, "X"))
 hand.key("ctrl+slash")
-hand.type("0.750")
+hand.type("0,750")        # FP-175: a decimal comma
 hand.key("Down")
 hand.type("1e")
 print("typed:", window.table.rows[1].get("X"), "red:", cell(2, "X").cget("foreground") == window.style.colours["bad"],

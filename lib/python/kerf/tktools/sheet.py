@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from tkinter import ttk
 
 from ..language import _
+from ..numbertext import with_point
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,12 @@ class Sheet(ttk.Frame):
     def _typed(self, line, place):
         if self.filling or self.top + line >= len(self.rows):
             return
-        column, text = self.columns[place], self.lines[line][2][place].get()
+        column, typed = self.columns[place], self.lines[line][2][place]
+        text = typed.get()
+        if not column.left and text != with_point(text):
+            self.filling, text = True, with_point(text)
+            typed.set(text)
+            self.filling = False
         self.rows[self.top + line].cells[column.key] = text
         self._colour(self.lines[line][1][place], column, text)
         self.changed()

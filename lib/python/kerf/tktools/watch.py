@@ -9,6 +9,7 @@ import hal
 from hal import query
 
 from ..language import _
+from ..numbertext import with_point
 
 KINDS = ("pin", "param", "sig")
 BACKUP = ".halshow_watchlist_backup"
@@ -92,7 +93,7 @@ def convert(type_, text):
         raise ValueError(_("'%s' is no bit: 1, 0, true or false") % text)
     if type_ == "float":
         try:
-            return float(text)
+            return float(with_point(text))
         except ValueError:
             raise ValueError(_("'%s' is no number") % text) from None
     bits = int(type_[1:])
