@@ -46,8 +46,9 @@ void homing_error(const char *fmt, int a, int b)
 
 /* ---- groups: joints with the same negative number go through the phases together ---- */
 
-/* Phase of each state. A joint starts the move of a phase when no partner is in an earlier one. */
-enum phase { PHASE_NONE, PHASE_BACK_OFF, PHASE_SEARCH, PHASE_LEAVE, PHASE_LATCH, PHASE_FINAL, PHASE_END };
+/* Phase of each state. A joint starts the move of a phase when no partner is in an earlier one,
+ * and none is homed before all have come to rest. */
+enum phase { PHASE_NONE, PHASE_BACK_OFF, PHASE_SEARCH, PHASE_LEAVE, PHASE_LATCH, PHASE_FINAL, PHASE_REST, PHASE_END };
 
 static const enum phase phase_of[HOME_ABORT + 1] = {
     [HOME_INITIAL_BACKOFF_START] = PHASE_BACK_OFF, [HOME_INITIAL_BACKOFF_WAIT] = PHASE_BACK_OFF,
@@ -59,7 +60,7 @@ static const enum phase phase_of[HOME_ABORT + 1] = {
     [HOME_INDEX_ONLY_START] = PHASE_LATCH,         [HOME_INDEX_SEARCH_START] = PHASE_LATCH,
     [HOME_INDEX_SEARCH_WAIT] = PHASE_LATCH,        [HOME_SET_INDEX_POSITION] = PHASE_LATCH,
     [HOME_FINAL_MOVE_START] = PHASE_FINAL,         [HOME_FINAL_MOVE_WAIT] = PHASE_FINAL,
-    [HOME_LOCK] = PHASE_END,                       [HOME_LOCK_WAIT] = PHASE_END,
+    [HOME_LOCK] = PHASE_REST,                      [HOME_LOCK_WAIT] = PHASE_END,
     [HOME_FINISHED] = PHASE_END,                   [HOME_ABORT] = PHASE_END,
 };
 
@@ -168,13 +169,29 @@ static int delay_over(int j)
     return 1;
 }
 
+/* A limit switch that ends homing wherever the joint is. */
+static int limit_trips(int j)
+{
+    const emcmot_joint_t *m = &homes.motion[j];
+    return (m->on_pos_limit || m->on_neg_limit) && !has(j, HOME_IGNORE_LIMITS);
+}
+
+/* Rests before a move: EV_NEXT when over. The partners of a joint may move meanwhile, so that its
+ * limit switch counts at once. */
+static enum event rest(int j)
+{
+    if (waits_for_group(j) && limit_trips(j))
+        return EV_LIMIT;
+    return delay_over(j) ? EV_NEXT : EV_NONE;
+}
+
 /* A limit switch that forbids a move in the direction of vel. With HOME_IGNORE_LIMITS only the
  * end the joint stands at, if that is known: both switches may be wired together. */
 static int is_blocked(int j, double vel)
 {
     const emcmot_joint_t *m = &homes.motion[j];
     if (!has(j, HOME_IGNORE_LIMITS))
-        return m->on_pos_limit || m->on_neg_limit;
+        return limit_trips(j);
     return (m->on_pos_limit && !m->on_neg_limit && vel > 0.0) || (m->on_neg_limit && !m->on_pos_limit && vel < 0.0);
 }
 
@@ -187,10 +204,9 @@ static int end_unknown(int j)
 /* What ends a search without success. */
 static enum event search_over(int j)
 {
-    const emcmot_joint_t *m = &homes.motion[j];
-    if ((m->on_pos_limit || m->on_neg_limit) && !has(j, HOME_IGNORE_LIMITS))
+    if (limit_trips(j))
         return EV_LIMIT;
-    return m->free_tp.active ? EV_NONE : EV_END;
+    return homes.motion[j].free_tp.active ? EV_NONE : EV_END;
 }
 
 /* Shifts the joint's coordinate by offset; the motor does not move. */
@@ -255,8 +271,9 @@ static enum event look_unlocked(int j)
 
 static enum event look_initial_backoff(int j)
 {
-    if (!delay_over(j))
-        return EV_NONE;
+    enum event e = rest(j);
+    if (e != EV_NEXT)
+        return e;
     if (is_blocked(j, -homes.joint[j].search_vel) || end_unknown(j))
         return EV_LIMIT;
     return may_start(j) ? EV_NEXT : EV_NONE;
@@ -264,8 +281,9 @@ static enum event look_initial_backoff(int j)
 
 static enum event look_search(int j)
 {
-    if (!delay_over(j))
-        return EV_NONE;
+    enum event e = rest(j);
+    if (e != EV_NEXT)
+        return e;
     if (homes.joint[j].switch_read)
         return EV_BACKOFF;
     if (is_blocked(j, homes.joint[j].search_vel) || end_unknown(j))
@@ -276,8 +294,9 @@ static enum event look_search(int j)
 /* Rested before a move that begins with the switch closed (or open). */
 static enum event look_begin(int j, int closed, double vel)
 {
-    if (!delay_over(j))
-        return EV_NONE;
+    enum event e = rest(j);
+    if (e != EV_NEXT)
+        return e;
     if (!homes.joint[j].switch_read != !closed)
         return EV_WRONG;
     if (is_blocked(j, vel))
@@ -306,8 +325,9 @@ static enum event look_latch_open(int j)
 
 static enum event look_index_only(int j)
 {
-    if (!delay_over(j))
-        return EV_NONE;
+    enum event e = rest(j);
+    if (e != EV_NEXT)
+        return e;
     if (is_blocked(j, homes.joint[j].latch_vel) || end_unknown(j))
         return EV_LIMIT;
     return may_start(j) ? EV_NEXT : EV_NONE;
@@ -335,6 +355,8 @@ static enum event look_switch_position(int j)
 
 static enum event look_final_start(int j)
 {
+    if (waits_for_group(j) && limit_trips(j))
+        return EV_LIMIT;
     if (homes.motion[j].free_tp.active)
         return EV_NONE;
     return may_start(j) ? EV_NEXT : EV_NONE;
@@ -342,13 +364,19 @@ static enum event look_final_start(int j)
 
 static enum event look_final(int j)
 {
-    const emcmot_joint_t *m = &homes.motion[j];
     if (!motor_moves(j))
         return EV_NEXT;
-    return (m->on_pos_limit || m->on_neg_limit) && !has(j, HOME_IGNORE_LIMITS) ? EV_LIMIT : EV_NONE;
+    return limit_trips(j) ? EV_LIMIT : EV_NONE;
 }
 
-static enum event look_lock(int j) { return has(j, HOME_UNLOCK_FIRST) ? EV_LOCKED : EV_NEXT; }
+/* Partners that have come to rest are homed in the same cycle, or none of them. */
+static enum event look_lock(int j)
+{
+    if (!may_start(j))
+        return limit_trips(j) ? EV_LIMIT : EV_NONE;
+    return has(j, HOME_UNLOCK_FIRST) ? EV_LOCKED : EV_NEXT;
+}
+
 static enum event look_locked(int j) { return has(j, HOME_UNLOCK_FIRST) && homes.is_unlocked(j) ? EV_NONE : EV_NEXT; }
 
 static enum event (*const looks[HOME_ABORT + 1])(int j) = {
@@ -494,7 +522,7 @@ static int state_of_move(home_state_t state)
 static void error_limit(int j)
 {
     home_state_t state = homes.joint[j].state;
-    if (state == HOME_FINAL_MOVE_WAIT)
+    if (state >= HOME_FINAL_MOVE_START)
         homing_error("hit limit in home state j=%d", j, 0);
     else
         homing_error("j%d hit limit in home state %d", j, state_of_move(state));
@@ -611,11 +639,13 @@ static const struct edge {
     {HOME_SET_INDEX_POSITION, EV_NEXT, HOME_FINAL_MOVE_START, NOW, set_index_position},
 
     {HOME_FINAL_MOVE_START, EV_NEXT, HOME_FINAL_MOVE_WAIT, LATER, move_home},
+    {HOME_FINAL_MOVE_START, EV_LIMIT, HOME_ABORT, NOW, error_limit},
     {HOME_FINAL_MOVE_WAIT, EV_NEXT, HOME_LOCK, NOW, stop_move},
     {HOME_FINAL_MOVE_WAIT, EV_LIMIT, HOME_ABORT, NOW, error_limit},
 
     {HOME_LOCK, EV_NEXT, HOME_LOCK_WAIT, NOW, NULL},
     {HOME_LOCK, EV_LOCKED, HOME_LOCK_WAIT, LATER, lock},
+    {HOME_LOCK, EV_LIMIT, HOME_ABORT, NOW, error_limit},
     {HOME_LOCK_WAIT, EV_NEXT, HOME_FINISHED, NOW, NULL},
     {HOME_FINISHED, EV_NEXT, HOME_IDLE, LATER, finish},
     {HOME_ABORT, EV_NEXT, HOME_IDLE, LATER, end_all},
