@@ -18,7 +18,7 @@
 #include <math.h>
 #include "homing_priv.h"
 
-#define HOME_DELAY_S 0.100      /* rest before a move in another direction */
+#define HOME_DELAY_S 0.100      /* rest before a move in another direction; contacts have settled then */
 #define MAX_EDGES 12            /* states entered within one cycle */
 #define SEARCH_TRAVEL 2.0       /* default length of a homing move in parts of the joint's range */
 
@@ -150,6 +150,8 @@ static int motor_moves(int j)
     return m->free_tp.active || m->backlash_filt != m->backlash_corr;
 }
 
+static int delay_cycles(void) { return (int)ceil(HOME_DELAY_S / homes.period); }
+
 /* Waits until the joint rests and then HOME_DELAY_S. 1 when over. */
 static int delay_over(int j)
 {
@@ -157,7 +159,7 @@ static int delay_over(int j)
     if (h->ready)
         return 1;
     if (motor_moves(j) || h->delay < 0) {
-        h->delay = (int)ceil(HOME_DELAY_S / homes.period);
+        h->delay = delay_cycles();
         if (motor_moves(j))
             return 0;
     }
@@ -244,8 +246,8 @@ static enum event look_start(int j)
     const struct home_joint *h = &homes.joint[j];
     if (has(j, HOME_ABSOLUTE_ENCODER)) /* needs no switch */
         return has(j, HOME_NO_REHOME) && h->homed ? EV_KEEP : EV_ABSOLUTE;
-    if (has(j, HOME_IS_SHARED) && h->switch_read)
-        return EV_WRONG;
+    if (has(j, HOME_IS_SHARED) && h->switch_read) /* may bounce: the joint before has just left it */
+        return delay_over(j) ? EV_WRONG : EV_NONE;
     if (has(j, HOME_NO_REHOME) && h->homed)
         return EV_KEEP;
     return has(j, HOME_UNLOCK_FIRST) ? EV_LOCKED : EV_NEXT;
@@ -364,14 +366,20 @@ static enum event look_final_start(int j)
 
 static enum event look_final(int j)
 {
+    struct home_joint *h = &homes.joint[j];
+    const emcmot_joint_t *m = &homes.motion[j];
+    h->limit_off = m->on_pos_limit || m->on_neg_limit ? 0 : h->limit_off + 1;
     if (!motor_moves(j))
         return EV_NEXT;
     return limit_trips(j) ? EV_LIMIT : EV_NONE;
 }
 
-/* Partners that have come to rest are homed in the same cycle, or none of them. */
+/* Partners that have come to rest are homed in the same cycle, or none of them. An ignored limit
+ * switch that was left a moment ago may bounce: as soon as the joint is homed it would be a fault. */
 static enum event look_lock(int j)
 {
+    if (has(j, HOME_IGNORE_LIMITS) && homes.joint[j].limit_off < delay_cycles() && !delay_over(j))
+        return EV_NONE;
     if (!may_start(j))
         return limit_trips(j) ? EV_LIMIT : EV_NONE;
     return has(j, HOME_UNLOCK_FIRST) ? EV_LOCKED : EV_NEXT;
@@ -480,8 +488,9 @@ static void set_index_position(int j)
 
 static void move_home(int j)
 {
-    const struct home_joint *h = &homes.joint[j];
+    struct home_joint *h = &homes.joint[j];
     emcmot_joint_t *m = &homes.motion[j];
+    h->limit_off = 0;
     m->free_tp.pos_cmd = h->home;
     m->free_tp.max_vel = h->final_vel > 0.0 ? limited_speed(j, h->final_vel) : m->vel_limit;
     m->free_tp.enable = 1;

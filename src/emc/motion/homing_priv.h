@@ -23,6 +23,7 @@ struct home_joint {
     int ready;              /* has rested and waits for its group */
     int go;                 /* so have all others: starts in this cycle */
     int delay;              /* cycles left to wait, -1 not waiting */
+    int limit_off;          /* cycles of the final move since a limit switch was on */
     int index_request;      /* index-enable set and not yet answered */
     int index_read;         /* index-enable as read this cycle */
     int index_written;      /* a write is due */
