@@ -511,7 +511,8 @@ static void end_all(int j)
     homing_abort_all();
 }
 
-/* Errors. One before a move names the state in which the joint would have moved. */
+/* Errors. One before a move names the state in which the joint would have moved; a request for the
+ * index ends with its move. */
 static int state_of_move(home_state_t state)
 {
     switch (state) {
@@ -531,6 +532,7 @@ static int state_of_move(home_state_t state)
 static void error_limit(int j)
 {
     home_state_t state = homes.joint[j].state;
+    homing_request_index(j, 0);
     if (state >= HOME_FINAL_MOVE_START)
         homing_error("hit limit in home state j=%d", j, 0);
     else
@@ -545,6 +547,7 @@ static void error_end(int j)
 {
     int state = homes.joint[j].state, open = state == HOME_INITIAL_BACKOFF_WAIT || state == HOME_FINAL_BACKOFF_WAIT ||
                                          state == HOME_FALL_SEARCH_WAIT;
+    homing_request_index(j, 0);
     homing_error("j%d end of move in home state %d", j, state);
     if (homes.joint[j].partner_tripped)
         homing_error("joint.%d.home-sw-in is later than its partner's by more than joint.%d.home-rack-max", j, j);

@@ -4,20 +4,21 @@ side of a gantry, in every phase of homing in which the sides are seen together:
 once, neither is homed, one message names the side, nothing goes on by itself; with the cause
 removed the gantry homes. FP-051, FP-055."""
 import kerf_motion as km
-from rig import Report, Rig
+from rig import USE_INDEX, Report, Rig
 
 r = Report()
 ACC, SEARCH, LATCH, FINAL = 500.0, 20.0, 2.0, 30.0
 m = Rig(3, axes="xy", kins="trivkins coordinates=xyy kinstype=both", acc=ACC, low=-200.0, high=200.0,
-        hw={"all": dict(hysteresis=0.05, home_from=10)})
+        hw={"all": dict(hysteresis=0.05, home_from=10, index_pitch=5.0, index_at=1.0)})
 SIDES = (1, 2)
 
 
-def prepare(start, latch):
+def prepare(start, latch, flags):
     m.unhome()
     for j, at, offset in ((1, start[0], 12.0), (2, start[1], 14.0)):
         m.place(j, at)
-        m.set_home(j, home_sequence=-1, search_vel=SEARCH, latch_vel=latch, offset=offset, home_final_vel=FINAL)
+        m.set_home(j, home_sequence=-1, search_vel=SEARCH, latch_vel=latch, offset=offset, home_final_vel=FINAL,
+                   flags=flags)
     m.set_home(0, home_sequence=2)
     m.sleep(0.01)
     m.errors()
@@ -27,9 +28,9 @@ def pair():
     return m.state(1), m.state(2)
 
 
-def pairs(start, latch):
+def pairs(start, latch, flags):
     """The pairs of states of a run without a fault that last longer than a few cycles."""
-    prepare(start, latch)
+    prepare(start, latch, flags)
     last = {}
 
     def watch(rig):
@@ -64,9 +65,9 @@ def told(way, side, messages):
     return messages[1:] in more and any(messages[:1] and messages[0].startswith(s) for s in starts)
 
 
-def case(start, latch, at, way, side):
+def case(start, latch, flags, at, way, side):
     name = f"{start} latch {latch}, {way} of {side} in {at}"
-    prepare(start, latch)
+    prepare(start, latch, flags)
     m.ask_home(1)
     m.until(lambda: pair() == at, at)
     m.sleep(0.003)
@@ -74,6 +75,7 @@ def case(start, latch, at, way, side):
     m.sleep(0.003 + (0 if way == "amplifier" else max(SEARCH, FINAL) / ACC))
     before = m.at(1), m.at(2)
     r.check(all(m.get(f"joint.{j}.vel-cmd") == 0 for j in SIDES), f"{name}: a side still moves")
+    r.check(not any(m.get(f"joint.{j}.index-enable") for j in SIDES), f"{name}: index still asked for")
     r.check(not m.homing() and pair() == ("IDLE", "IDLE"), f"{name}: still homing {pair()}")
     r.check(not any(m.get(f"joint.{j}.homed") for j in SIDES), f"{name}: a side is homed")
     m.sleep(0.25)
@@ -94,15 +96,15 @@ def case(start, latch, at, way, side):
 
 
 tried = set()
-for start, latch in (((0, 3), LATCH), ((3, 0), -LATCH), ((12, 15), LATCH)):
-    for at in pairs(start, latch):
+for start, latch, flags in (((0, 3), LATCH, 0), ((3, 0), -LATCH, 0), ((12, 15), LATCH, 0), ((0, 3), LATCH, USE_INDEX)):
+    for at in pairs(start, latch, flags):
         if at in tried:
             continue
         tried.add(at)
         for way in ("limit", "limit for an instant", "amplifier", "abort"):
             for side in SIDES if way != "abort" else (1,):
-                case(start, latch, at, way, side)
-for phase in ("BACKOFF_WAIT SEARCH_WAIT FINAL_BACKOFF_WAIT RISE_WAIT FALL_WAIT FINAL_WAIT").split():
+                case(start, latch, flags, at, way, side)
+for phase in ("BACKOFF_WAIT SEARCH_WAIT FINAL_BACKOFF_WAIT RISE_WAIT FALL_WAIT INDEX_WAIT FINAL_WAIT").split():
     for j in (0, 1):
         r.check(any(p[j] == phase for p in tried), f"{phase} of side {j + 1} was not tried")
 r.finish()

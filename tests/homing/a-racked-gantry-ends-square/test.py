@@ -21,12 +21,12 @@ def settings(y0, y1):
     m.set_home(2, **y1)
 
 
-def home(title, start, y0, y1, switches=(50.0, 50.0), joint=-1, square=True, hw=({}, {}), fails=False, rack=0.0, apart=None):
+def home(title, start, y0, y1, switches=(50.0, 50.0), joint=-1, square=True, hw=({}, {}), bounce=0, fails=False, rack=0.0, apart=None):
     """start: places of the two sides. Compared with the first difference the sides may part by
     the distance of the switches and a stop."""
     m.unhome()
     for j in (1, 2):
-        m.hw(j, **dict(dict(stuck=0, index_pitch=0, bounce_ms=0), **hw[j - 1]))
+        m.hw(j, **dict(dict(stuck=0, index_pitch=0, bounce_ms=bounce), **hw[j - 1]))
         m.hw(j, home_from=switches[j - 1], home_to=1e9)
         m.set(f"joint.{j}.home-rack-max", rack)
         m.place(j, start[j - 1])
@@ -55,7 +55,8 @@ def home(title, start, y0, y1, switches=(50.0, 50.0), joint=-1, square=True, hw=
     for j in (1, 2):
         r.near(m.get(f"joint.{j}.pos-cmd"), 0.0, f"{title}: joint {j}")
     if square:
-        r.near(m.at(1) - m.at(2), switches[0] - switches[1] if square == "switches" else 0.0, f"{title}: square", 2 * LATCH * 0.002)
+        r.near(m.at(1) - m.at(2), switches[0] - switches[1] if square == "switches" else 0.0, f"{title}: square",
+               LATCH * (0.004 + bounce * 1e-3))
     # never one side in the latch move while the other one still searches
     for a, b in order:
         for x, y in ((a, b), (b, a)):
@@ -82,7 +83,8 @@ home("switches out of line", (0, 0), y(-3), y(-3, offset=53.5), switches=(50.0, 
 home("switches out of line, racked", (4, 0), y(-3), y(-3, offset=53.5), switches=(50.0, 51.5), joint=2)
 index = dict(index_pitch=5.0, index_at=1.0)
 home("index on both", (0, 2), y(-3, flags=USE_INDEX), y(-3, flags=USE_INDEX), joint=1, hw=(index, index))
-home("bouncing switches", (0, 2), y(-3), y(-3), joint=1, hw=(dict(bounce_ms=10), dict(bounce_ms=10)), square=False)
+for latch in (LATCH, -LATCH):
+    home(f"bouncing switches, latch {latch}", (0, 2), y(-3, latch_vel=latch), y(-3, latch_vel=latch), joint=1, bounce=20)
 # a switch that never comes: both sides stop, within the settable distance
 for dead in (0, 1):
     hw = [{}, {}]
