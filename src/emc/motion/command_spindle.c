@@ -56,10 +56,15 @@ void cmd_spindle_on(M *m, C *c)
     for (; s < end; s++) {
         spindle_status_t *sp = &m->status->spindle_status[s];
         changed |= !same_order(sp, c);
-        hal_set_bool(m->pins->spindle[s].orient, 0);
-        hal_set_bool(m->pins->spindle[s].locked, 0);
-        sp->locked = 0;
-        sp->orient_state = EMCMOT_ORIENT_NONE;
+        if (c->state) { /* a speed alone leaves an orientation as it is */
+            hal_set_bool(m->pins->spindle[s].orient, 0);
+            hal_set_bool(m->pins->spindle[s].locked, 0);
+            sp->locked = 0;
+            sp->orient_state = EMCMOT_ORIENT_NONE;
+            sp->rests = 0;
+        } else if (sp->state) {
+            sp->rests = 1;
+        }
         sp->state = c->state;
         sp->speed = limit_speed(sp, c->vel);
         if (c->vel != 0.0 && sp->speed == 0.0 && c->state)
@@ -83,6 +88,7 @@ void cmd_spindle_off(M *m, C *c)
         return;
     for (; s < end; s++) {
         spindle_status_t *sp = &m->status->spindle_status[s];
+        sp->rests = !c->wait_for_spindle_at_speed;
         sp->state = 0;
         sp->speed = 0.0;
         sp->direction = 0;
@@ -157,6 +163,7 @@ void cmd_spindle_orient(M *m, C *c)
         sp->direction = 0;
         sp->brake = 0;
         sp->state = 0;
+        sp->rests = 1;
         sp->locked = 0;
         hal_set_bool(p->on, 0);
         hal_set_real(p->orient_angle, c->orientation);

@@ -280,11 +280,13 @@ typedef struct {
 } emcmot_axis_status_t;
 
 typedef struct spindle_status {
-    double speed;      /* rpm, signed, as commanded */
+    double speed;      /* rpm, signed, as commanded; with constant surface speed its bound */
+    double rpm;        /* what it shall turn at now, before the override; 0 while it is off */
     double scale, net_scale;
     double css_factor; /* 0 = constant rpm */
     double xoffset;
     int state;         /* 0 off */
+    int rests;         /* 1: off, and no move waits until it stands */
     int direction;     /* -1, 0, 1 */
     int brake;
     int locked;

@@ -9,17 +9,18 @@
 #include <math.h>
 #include "motion_priv.h"
 
-static double speed_out(const struct motion *m, const spindle_status_t *s)
+/* The speed at an override, within the limits. */
+static double speed_at(const struct motion *m, const spindle_status_t *s, double scale)
 {
     double rpm = s->speed;
     if (s->css_factor != 0.0) {
         double radius = fabs(s->xoffset - m->status->carte_pos_cmd.tran.x), limit = fabs(s->speed);
         if (radius > 0.0)
             rpm = s->css_factor / radius;
-        rpm *= s->net_scale;
+        rpm *= scale;
         rpm = fmax(-limit, fmin(limit, rpm));
     } else {
-        rpm *= s->net_scale;
+        rpm *= scale;
     }
     if (rpm > 0.0)
         return fmax(s->min_pos_speed, fmin(s->max_pos_speed, rpm));
@@ -43,9 +44,10 @@ static void index_handshake(struct motion *m, int n)
 void spindle_output(struct motion *m)
 {
     for (int n = 0; n < m->num_spindles; n++) {
-        const spindle_status_t *s = &m->status->spindle_status[n];
+        spindle_status_t *s = &m->status->spindle_status[n];
         struct spindle_pins *p = &m->pins->spindle[n];
-        double rpm = s->state ? speed_out(m, s) : 0.0; /* a set speed alone turns nothing */
+        double rpm = s->state ? speed_at(m, s, s->net_scale) : 0.0; /* a set speed alone turns nothing */
+        s->rpm = s->state && s->speed != 0.0 ? speed_at(m, s, 1.0) : 0.0;
         hal_set_real(p->speed_out, rpm);
         hal_set_real(p->speed_out_abs, fabs(rpm));
         hal_set_real(p->speed_out_rps, rpm / 60.0);

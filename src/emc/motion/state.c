@@ -32,7 +32,7 @@ static void spindle_init(spindle_status_t *s)
     s->max_pos_speed = DEFAULT_MAX_SPINDLE_SPEED;
     s->max_neg_speed = -DEFAULT_MAX_SPINDLE_SPEED;
     s->increment = 100.0;
-    s->at_speed = 1;
+    s->at_speed = s->rests = 1;
 }
 
 void state_init(struct motion *m, const struct motion_sizes *sizes)

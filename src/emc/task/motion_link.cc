@@ -677,8 +677,8 @@ void MotionLink::update(std::string *error) {
         EMC_SPINDLE_STAT &to = m.spindle[n];
         const spindle_status_t &from = s.spindle_status[n];
         to.spindle_override_enabled = enables & SS_ENABLED;
-        to.speed = from.speed;
-        to.enabled = from.speed != 0;
+        to.speed = from.rpm;
+        to.enabled = from.rpm != 0;
         to.direction = from.direction;
         to.brake = from.brake;
         to.spindle_scale = from.scale;

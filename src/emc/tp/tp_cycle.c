@@ -49,11 +49,12 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
     if (pl->pausing || tp_mot.status->offsets_leave) return 0;
     if ((pl->unlocked_joint < 0 || pl->unlocked_for != index) && !rotary_locked(pl)) return 0;
     if ((info->atspeed || (info->sync.mode == SYNC_POSITION && !goes_on) || info->tap) && !pl->starting &&
-        !tp_spindles_at_speed()) {
+        !tp_spindles_at_speed(info)) {
         tp->spindle.waiting_for_atspeed = info->id;
         return 0;
     }
     tp->spindle.waiting_for_atspeed = -1;
+    if (info->atspeed) tp_stops_waited_for();
     if (info->indexer >= 0) {
         tp_mot.set_rotary_unlock(info->indexer, 1);
         pl->unlocked_joint = info->indexer;

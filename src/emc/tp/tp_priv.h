@@ -159,7 +159,8 @@ void tp_fail(struct planner *pl);
 /* ---- tp_sync.c ---- */
 
 /* All spindles of the machine turn as commanded. */
-int tp_spindles_at_speed(void);
+int tp_spindles_at_speed(const struct move_info *info);
+void tp_stops_waited_for(void); /* a move passed the wait: later ones wait only for spindles that turn */
 /* Takes the position of the followed spindle in, once a cycle. */
 void tp_measure_spindle(struct planner *pl);
 /* Seconds by which the reference is taken ahead. */

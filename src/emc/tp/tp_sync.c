@@ -14,18 +14,33 @@
 #define EXCESS_TIME 0.05   /* s of it while a thread is cut end the thread */
 #define IN_PHASE 0.01      /* of a pitch by which a thread may be off its place, or a step of a coarser count */
 #define IN_STEP 0.25       /* of the spindle's speed by which it may pass there */
-#define WAIT_TIME 1.0      /* s that a move waits for a spindle before the log says for what */
+#define WAIT_TIME 1.0      /* s that a move waits for a spindle before the log says for what, */
+#define TELL_TIME 10.0     /* and before the operator is told */
 #define INDEX_REVS 1.0     /* revolutions that an encoder may show right after its index, */
 #define INDEX_CYCLES 10    /* and what it turns in so many cycles more */
 #define GAP_TOLERANCE 0.05 /* revolutions by which indexes may differ from once a revolution, and */
 #define GAP_STEPS 1.5      /* as many steps of the count */
 #define GAP_TURNS 4.0      /* revolutions in which one index must be as far from another */
 
-int tp_spindles_at_speed(void)
+/* A move waits for the spindles that are on, those whose stop it has to wait for, and the one it follows. */
+static int waits_for(const struct move_info *info, int spindle)
+{
+    const struct spindle_status *sp = &tp_mot.status->spindle_status[spindle];
+    int follows = (info->sync.mode != SYNC_OFF || info->tap) && info->sync.spindle == spindle;
+    return !sp->at_speed && (!sp->rests || follows);
+}
+
+int tp_spindles_at_speed(const struct move_info *info)
 {
     for (int i = 0; i < tp_mot.config->numSpindles; i++)
-        if (!tp_mot.status->spindle_status[i].at_speed) return 0;
+        if (waits_for(info, i)) return 0;
     return 1;
+}
+
+void tp_stops_waited_for(void)
+{
+    for (int i = 0; i < tp_mot.config->numSpindles; i++)
+        if (!tp_mot.status->spindle_status[i].state) tp_mot.status->spindle_status[i].rests = 1;
 }
 
 /* Revolutions of a spindle, growing while it turns as commanded. */
@@ -231,18 +246,30 @@ void tp_follow_moves(struct planner *pl, uint32_t from)
 void tp_watch_waiting(const TP_STRUCT *tp, struct planner *pl)
 {
     double before = pl->waited;
+    int64_t move = traj_waiting(&pl->tj);
 
-    if (tp->spindle.waiting_for_atspeed < 0 && tp->spindle.waiting_for_index < 0) {
+    if (move < 0 || (tp->spindle.waiting_for_atspeed < 0 && tp->spindle.waiting_for_index < 0)) {
         pl->waited = 0;
         return;
     }
     pl->waited += pl->cycle;
-    if (before >= WAIT_TIME || pl->waited < WAIT_TIME) return;
+    int tell = before < TELL_TIME && pl->waited >= TELL_TIME;
+    if (!tell && (before >= WAIT_TIME || pl->waited < WAIT_TIME)) return;
     if (tp->spindle.waiting_for_index >= 0) {
-        rtapi_print("motion: line %d waits for an index: spindle.%d.index-enable\n", tp->spindle.waiting_for_index, pl->followed);
+        if (tell)
+            rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits for an index since %g s: spindle.%d.index-enable\n",
+                            tp->spindle.waiting_for_index, TELL_TIME, pl->followed);
+        else
+            rtapi_print("motion: line %d waits for an index: spindle.%d.index-enable\n", tp->spindle.waiting_for_index, pl->followed);
         return;
     }
-    for (int i = 0; i < tp_mot.config->numSpindles; i++)
-        if (!tp_mot.status->spindle_status[i].at_speed)
+    for (int i = 0; i < tp_mot.config->numSpindles; i++) {
+        const struct spindle_status *sp = &tp_mot.status->spindle_status[i];
+        if (!waits_for(info_of(pl, (uint32_t)move), i)) continue;
+        if (tell)
+            rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits for spindle.%d.at-speed since %g s: %g rpm are commanded, %g measured\n",
+                            tp->spindle.waiting_for_atspeed, i, TELL_TIME, sp->rpm, sp->spindleSpeedIn * 60);
+        else
             rtapi_print("motion: line %d waits for spindle.%d.at-speed\n", tp->spindle.waiting_for_atspeed, i);
+    }
 }

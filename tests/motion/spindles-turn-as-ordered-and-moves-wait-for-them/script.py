@@ -1,11 +1,17 @@
 # Outputs of spindles by speed, limits, override, brake, orientation and constant surface speed; feeds that
-# wait for the speed after a start, another speed and a stop, and rapids that do not (FP-023).
+# wait for the speed after a start, another speed and a stop, and rapids that do not (FP-023, FP-027), with eight spindles.
+import os
+import tempfile
+
 import kerf_motion as km
 from motion_bench import Machine, eq
 
-m = Machine(vel=200.0, acc=5000.0, motmod="num_spindles=3")
-m.send(km.SET_NUM_SPINDLES, spindle=3)
-for n in range(3):
+SPINDLES = 8
+log = tempfile.NamedTemporaryFile()
+os.environ["MOTION_BENCH_LOG"] = log.name
+m = Machine(vel=200.0, acc=5000.0, motmod=f"num_spindles={SPINDLES}")
+m.send(km.SET_NUM_SPINDLES, spindle=SPINDLES)
+for n in range(SPINDLES):
     m.send(km.SET_SPINDLE_PARAMS, spindle=n, maxLimit=6000, minLimit=-5000, min_pos_speed=20, max_neg_speed=-30, offset=100)
 
 
@@ -136,7 +142,7 @@ def waits(kind, **more):
     m.line(m.get("joint.0.pos-cmd"), y, 0, vel=200, kind=kind, **more)
     m.sleep(0.1)
     held = m.get("joint.1.pos-cmd") == before
-    for n in range(3):
+    for n in range(SPINDLES):
         m.set(f"spindle.{n}.at-speed", 1)
     m.rest()
     eq(m.get("joint.1.pos-cmd"), y, "the move ends")
@@ -161,6 +167,36 @@ case("feed after a stop", [True], 0)
 case("rapids go on", [False], 500, kinds=(1,))
 case("the feed after a rapid waits", [True])
 case("any spindle counts", [True], 800, n=2)
+for n in range(SPINDLES):
+    case(f"FP-027: a start of spindle {n}", [True], 300, n=n)
+    case(f"FP-027: another speed of spindle {n}", [True], 400, n=n)
+order(0, n=5, wait=1)
+case("FP-027: the stop of a spindle", [True], n=5)
+order(500, n=2, wait=1)
+case("FP-027: a spindle that stopped before is not waited for", [False], n=5)
+order(0, n=6)
+order(600, n=2, wait=1)
+case("FP-027: nor one whose stop is no reason to wait", [False], n=6)
+order(700, n=2, wait=1)
+for n in (2, 5, 7):
+    m.set(f"spindle.{n}.at-speed", 0)
+m.set("spindle.2.speed-in", 1.5)
+start = m.get("joint.1.pos-cmd")
+m.line(m.get("joint.0.pos-cmd"), 20, 0, vel=200, id=77)
+m.sleep(9.9)
+eq(m.errors(), [], "FP-027: nothing is told of a spindle that gets to its speed in time")
+m.sleep(5)
+eq(m.errors(), [f"line 77 waits for spindle.{n}.at-speed since 10 s: {rpm} rpm are commanded, {real} measured\n" for n, rpm, real in ((2, 700, 90), (7, 400, 0))],
+   "FP-027: a wait that does not end is told once, with each spindle that is not at its speed")
+for n in (2, 7):
+    eq(m.get("joint.1.pos-cmd"), start, f"FP-027: the move begins before spindle {n} is at its speed")
+    m.set(f"spindle.{n}.at-speed", 1)
+    m.sleep(0.1)
+m.rest()
+m.set("spindle.5.at-speed", 1)
+eq(m.get("joint.1.pos-cmd"), 20.0, "FP-027: the move goes on")
+m.line(m.get("joint.0.pos-cmd"), 0, 0, vel=200, kind=1)
+m.rest()
 order(900, wait=0)
 case("an order without a wait", [False])
 order(2000, css=30000.0, wait=1)
@@ -183,4 +219,6 @@ m.line(40, 0, 0, vel=200)
 m.rest()
 eq(round(m.get("joint.0.pos-cmd"), 9), 40.0, "after an abort nothing waits")
 m.close()
+eq([x.strip() for x in open(log.name) if "motion: line 77 waits" in x], [f"motion: line 77 waits for spindle.{n}.at-speed" for n in (2, 7)],
+   "FP-027: the log names each spindle of a wait")
 print(f"{eq.checks} checks")
