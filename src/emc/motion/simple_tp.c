@@ -166,6 +166,18 @@ static int last_cycles(const struct approach *p, double jmax, double *jerk)
     return 1;
 }
 
+static struct stop jerk_limited_stop(const simple_tp_t *tp)
+{
+    return stop_of(tp->curr_vel, tp->curr_acc, STOP_JERK * tp->max_jerk, STOP_ACC * tp->max_acc);
+}
+
+/* A stop of a motion whose brake would turn it back (a jog reversed just before): the brake is let off as planned. To go
+ * for the place of the stop would brake harder still, as the motion passes it before it turns. */
+static int turns_back(const simple_tp_t *tp)
+{
+    return !tp->enable && jerk_limited_stop(tp).sign * tp->curr_vel < 0.0;
+}
+
 /* A motion that is to stop goes to where it can, as exactly as to any target: one place for all of the stop,
  * the target it had when that lies there within the rounding to whole cycles. */
 static void aim_at_stop(simple_tp_t *tp, double T)
@@ -198,6 +210,8 @@ static void jerk_limited_step(simple_tp_t *tp, double T)
     struct approach p = {dir * err, dir * v, dir * a, tp->max_vel, tp->max_acc, j, T};
     if (last_cycles(&p, tp->max_jerk, &a1))
         a1 = a + dir * a1 * T;
+    else if (turns_back(tp))
+        a1 = a - copysign(j * T, a);
     else
         a1 = dir * best_acceleration(&p, da);
     tp->curr_pos += T * (v + T * (a / 3.0 + a1 / 6.0));
@@ -214,11 +228,6 @@ void simple_tp_update(simple_tp_t *tp, double period)
         return;
     }
     trapezoidal_step(tp, period);
-}
-
-static struct stop jerk_limited_stop(const simple_tp_t *tp)
-{
-    return stop_of(tp->curr_vel, tp->curr_acc, STOP_JERK * tp->max_jerk, STOP_ACC * tp->max_acc);
 }
 
 /* Cycles of a trapezoidal stop that still move. */
