@@ -43,7 +43,10 @@ class Waits:
             return
         self.span("tool", now, self.pin("iocontrol.0.tool-change"))
         self.span("user", now, stat.exec_state == linuxcnc.EXEC_WAITING_FOR_SYSTEM_CMD)
-        self.run_up(now, abs(stat.spindle[0]["speed"]), self.pin("spindle.0.at-speed"))
+        if 960 in stat.gcodes:  # G96: the speed follows the radius, which tells nothing of a run-up
+            self.began["spindle"] = self.speed = None
+        else:
+            self.run_up(now, abs(stat.spindle[0]["speed"]), self.pin("spindle.0.at-speed"))
 
     def span(self, kind, now, waits):
         began = self.began[kind]
