@@ -41,7 +41,8 @@ def script(op):
     for name in samples[-1]:
         kb = [s[name][0] for s in samples if name in s]
         middle = samples[LOOKS // 2].get(name)
-        if middle and (max(kb[-3:]) - max(kb[8:11]) > LIMIT_KB or samples[-1][name][1] > middle[1] + 2):
+        # the least of five looks: a child that is started makes pages private for a while
+        if middle and (min(kb[-5:]) - min(kb[8:13]) > LIMIT_KB or samples[-1][name][1] > middle[1] + 2):
             grown[name] = [s.get(name) for s in samples]
     if len(samples[-1]) > len(samples[LOOKS // 2]) + 2:
         grown["processes"] = [len(s) for s in samples]
