@@ -146,6 +146,8 @@ void RunTime::spindle(int which, double speed, double factor, double xoffset) {
         if (speed != 0 && speed != s.speed) waits_.spindle_starts++;
         planner_->at_speed_s[n] = std::max(seconds_, planner_->at_speed_s[n]) + std::fabs(speed - s.speed) * rates_.s_per_rpm;
         s.speed = speed;
+        s.state = speed != 0;
+        s.rests = 0;
         s.css_factor = factor;
         s.xoffset = xoffset;
         s.direction = speed > 0 ? 1 : speed < 0 ? -1 : 0;
