@@ -260,12 +260,13 @@ void Task::run(const volatile int *stop) {
 
 void Task::shutdown() {
     if (interp_) interp_->exit();
+    motion_.disable(); // first: a move that waits may switch outputs when it begins
+    update_motion();
     for (int s = 0; s < stat_.motion.traj.spindles; s++)
         if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
     for (int i = 0; i < EMCMOT_MAX_DIO; i++)
         if (stat_.motion.synch_do[i]) motion_.set_dout(i, 0, 0, 1);
     io_.estop_on(); // what its pins feed keeps the last value
-    motion_.disable();
     update_motion();
     if (!settings_.position_file.empty()) motion_.save_positions(settings_.position_file);
     tool_mmap_close();

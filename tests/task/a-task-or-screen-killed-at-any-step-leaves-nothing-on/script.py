@@ -53,10 +53,11 @@ left = high()
 rose, at, before = set(), axes(), None
 try:
     while True:
-        rose |= high() - left
+        if sys.argv[3] != "screen" or "motion.motion-enabled" not in left:     # until the launcher sees the screen's death the program goes on
+            rose |= high() - left
         left, before, at = high(), at, axes()
         if sys.argv[3] == "screen" and "motion.motion-enabled" in left:
-            time.sleep(0.005)       # the launcher sees the screen's death in wall time, the program goes on until then
+            time.sleep(0.005)       # the launcher sees it in wall time
         clock.sleep(0.001)
 except RuntimeError:        # the pins are gone
     pass
