@@ -9,6 +9,7 @@ from axis.settings import read
 from kerf import clock
 from kerf.runner import Machine
 
+clock.join("display", 900)
 ini = os.environ["INI_FILE_NAME"]
 machine = Machine(ini)
 machine.prepare()
@@ -37,9 +38,8 @@ def run(program):
 for name, feed, rapid in [line.split() for line in os.environ["PROGRAMS"].splitlines()]:
     machine.command.feedrate(float(feed))
     machine.command.rapidrate(float(rapid))
-    clock.sleep(0.1)
+    clock.sleep(3)      # the spindle of the program before comes to rest
     expected, taken = estimate(name, "-f", feed, "-r", rapid), run(name)
-    taken = min(taken, run(name)) if abs(expected / taken - 1) >= 0.02 else taken     # on a busy computer a start takes 0.2 s more now and then
     error = abs(expected / taken - 1)
     print(os.path.basename(name), feed, rapid, "within 2 %" if error < 0.02 else f"expected {expected:.3f}, took {taken:.3f}")
 for name, text in (("endless", "G21\nF600\no1 while [1]\nG1 X1\nG1 X0\no1 endwhile\nM2\n"), ("broken", "G21\nG1 X1 F60\nG1 X Y2\nM2\n")):
