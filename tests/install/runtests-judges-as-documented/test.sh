@@ -48,7 +48,7 @@ make_test l/memory 'python3 -c "
 import ctypes
 from kerf import instance
 ctypes.CDLL(None).shmget(ctypes.c_int(instance.key(0x64)), 4096, 0o1666)"; echo x' x
-run l | sed 's/0x[0-9a-f]*/KEY/'
+run --strict l | sed 's/0x[0-9a-f]*/KEY/'
 pgrep -f 'sleep 7711' > /dev/null && echo "still there" || echo "ended"
 echo "== a time limit ends a test with all it started"
 make_test t/hangs 'sleep 7712 & sleep 7713' x
