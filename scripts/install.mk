@@ -20,6 +20,7 @@ install: all $(INSTALL_HOOKS)
 	$(INST_EXE) $(PROGRAMS) $(SCRIPTS) $(DESTDIR)$(prefix)/bin
 	for s in $(USER_SCRIPTS); do [ ! -f scripts/$$s ] || $(INST_EXE) scripts/$$s $(DESTDIR)$(prefix)/bin; done
 	for l in $(LIBRARY_FILES); do $(INST) $$l $(DESTDIR)$(prefix)/lib; n=$${l##*/}; ln -sf $$n $(DESTDIR)$(prefix)/lib/$${n%%.so*}.so; done
+	$(INST) $(INTERPRETERS) $(DESTDIR)$(prefix)/lib/linuxcnc
 	$(INST) $(ARCHIVES) $(DESTDIR)$(prefix)/lib
 	$(INST) $(RTMODULES) $(DESTDIR)$(moduledir)
 	$(INST_EXE) scripts/realtime $(DESTDIR)$(prefix)/lib/linuxcnc/realtime

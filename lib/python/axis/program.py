@@ -133,7 +133,8 @@ class Loader:
         division = int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64))
         return functools.partial(gcode.load, path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,
                                  linear_units=self.s.units_per_mm, ini=self.s.ini_path, arc_division=division,
-                                 block_delete=block_delete, progress=progress, max_vertices=MAX_VERTICES)
+                                 block_delete=block_delete, progress=progress, max_vertices=MAX_VERTICES,
+                                 interpreter=self.s.find("TASK", "INTERPRETER") or "")
 
     def too_large(self, path):
         """True for a file that [DISPLAY]GRAPHICAL_MAX_FILE_SIZE (MB) lets be shown as a box only."""

@@ -79,7 +79,7 @@ def check_program(program, ini_path, env):
                                 tools=read_tools(ini, folder),
                                 axis_mask=sum(1 << i for i, c in enumerate("XYZABCUVW") if c in letters),
                                 linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
-                                ini=str(ini_path))
+                                ini=str(ini_path), interpreter=ini.get("TASK", "INTERPRETER", ""))
         finally:
             os.chdir(there)
     if result.error and "#<_hal[" not in result.error:

@@ -10,8 +10,6 @@
 #include <ctime>
 #include <memory>
 
-#include <dlfcn.h>
-
 #include "interp.hh"
 #include "preview_canon.hh"
 
@@ -285,19 +283,6 @@ class CallbackCanon final : public PreviewCanon
     std::vector<double> rows;
 };
 
-std::unique_ptr<Interp> make_interpreter(const std::string &library, Canon &canon)
-{
-    if (!library.empty()) {
-        void *handle = dlopen(library.c_str(), RTLD_NOW);
-        if (!handle) throw py::value_error(std::string("interpreter ") + library + ": " + dlerror());
-        auto make = reinterpret_cast<makeInterp_t>(dlsym(handle, "makeInterp"));
-        if (make)
-            if (Interp *made = make(canon)) return std::unique_ptr<Interp>(made);
-        throw py::value_error("interpreter " + library + " has no makeInterp");
-    }
-    return std::make_unique<Interp>(canon);
-}
-
 // An exception of check_abort() is not replaced.
 struct AbortException {
     py::error_already_set error;
@@ -330,7 +315,9 @@ py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
 {
     saved_error.clear();
     CallbackCanon canon(canon_object);
-    std::unique_ptr<Interp> interp = make_interpreter(library, canon);
+    std::string why;
+    std::unique_ptr<Interp> interp = make_interpreter(library, canon, &why);
+    if (!interp) throw py::value_error(why);
     canon.interp = interp.get();
     int status = INTERP_OK, extra = 0;
     try {

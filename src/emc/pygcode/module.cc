@@ -68,9 +68,10 @@ std::vector<CANON_TOOL_TABLE> tool_list(const py::object &tools)
 std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &parameter_file, const py::object &init,
                                   const py::object &tools, int axis_mask, double linear_units, double angular_units,
                                   const std::string &ini, int arc_division, bool block_delete, const py::object &start,
-                                  const py::object &progress, size_t max_vertices)
+                                  const py::object &progress, size_t max_vertices, const std::string &interpreter)
 {
     ProgramOptions o;
+    o.interpreter = interpreter;
     o.parameter_file = parameter_file;
     o.ini_file = ini;
     o.init_codes = text_list(init);
@@ -327,9 +328,10 @@ PYBIND11_MODULE(gcode, m)
           py::arg("tools") = py::none(), py::arg("axis_mask") = 0x1ff, py::arg("linear_units") = 1.0,
           py::arg("angular_units") = 1.0, py::arg("ini") = "", py::arg("arc_division") = 64,
           py::arg("block_delete") = false, py::arg("start") = py::none(), py::arg("progress") = py::none(),
-          py::arg("max_vertices") = 0,
+          py::arg("max_vertices") = 0, py::arg("interpreter") = "",
           "Read a program into a Program. linear_units: machine units per mm; tools: 14-tuples as of get_tool();\n"
           "progress(line) is called about ten times a second and stops the reading when it returns true.\n"
           "max_vertices: a longer path is kept coarser (thinned); lengths, times and extents stay exact.\n"
+          "interpreter: library of another language, as [TASK]INTERPRETER.\n"
           "The parameter file is read and, like by every interpreter start, written: give a copy.");
 }

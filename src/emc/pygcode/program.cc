@@ -314,14 +314,21 @@ void read_program(ProgramPath &path, const std::string &file, const ProgramOptio
                   const std::function<bool(int)> &progress)
 {
     PathCanon canon(path, options);
-    Interp interp(canon);
-    canon.interp = &interp;
+    const std::unique_ptr<Interp> made = make_interpreter(options.interpreter, canon, &path.error);
+    if (!made) {
+        path.result = INTERP_ERROR;
+        path.fault.what = path.error;
+        return;
+    }
+    Interp &interp = *made;
+    canon.interp = made.get();
     InterpOptions io;
     io.ini_file = options.ini_file;
     int status = interp.init(io);
     if (status <= INTERP_MIN_ERROR) status = interp.open(file.c_str());
     for (size_t i = 0; i < options.init_codes.size() && status <= INTERP_MIN_ERROR; ++i)
         status = interp.execute(options.init_codes[i].c_str());
+    if (!options.interpreter.empty() && interp.file_open()) status = INTERP_OK; // as task: they are of another language
     canon.begin_program();
     double asked = wall_seconds();
     int count = 0;

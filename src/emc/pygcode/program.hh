@@ -39,6 +39,7 @@ struct ProgramMark {
 /// What a program is read with.
 struct ProgramOptions {
     std::string parameter_file, ini_file;
+    std::string interpreter; // library, as of make_interpreter()
     std::vector<std::string> init_codes;
     std::vector<CANON_TOOL_TABLE> tools;
     int axis_mask = 0x1ff;

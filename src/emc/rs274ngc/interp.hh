@@ -8,6 +8,9 @@
  *         several; they share nothing (the Python plugin, if asked for, is one per process).
  * Source: G-code sheets; stages and files: README.md in this folder
  *
+ * An interpreter of another language derives from it and replaces what is virtual
+ * (src/emc/canterp); its library has the function makeInterp.
+ *
  * Ordinary use: init, open, then read and execute in turn until a result other
  * than INTERP_OK. After INTERP_EXECUTE_FINISH the caller waits until the machine
  * has done all it was told, calls synch(), and goes on reading.
@@ -60,15 +63,15 @@ class Interp
 {
   public:
     explicit Interp(Canon &canon);
-    ~Interp();
+    virtual ~Interp();
     Interp(const Interp &) = delete;
     Interp &operator=(const Interp &) = delete;
 
     // ---- life ---------------------------------------------------------------
     /// Reads INI and parameter file, sets default modes, synchs. May be called again.
-    int init(const InterpOptions &options);
+    virtual int init(const InterpOptions &options);
     /// Saves the parameters; nothing may be called after it but init and the destructor.
-    int exit();
+    virtual int exit();
     /// Forgets calls, loops and what is held back; modal state stays.
     int reset();
     /// Re-reads what the machine knows: position, tool, feed, modes; saves the parameters.
@@ -77,14 +80,14 @@ class Interp
     const std::string &parameter_trouble() const;
 
     // ---- running --------------------------------------------------------------
-    int open(const char *filename);
-    int close();
+    virtual int open(const char *filename);
+    virtual int close();
     /// Reads the next line of the open program (or of a called file).
-    int read();
+    virtual int read();
     /// Reads one MDI line; sequence number as last set by execute(line, number), else 0.
-    int read(const char *line);
+    virtual int read(const char *line);
     /// Executes what was read.
-    int execute();
+    virtual int execute();
     /// Reads and executes one MDI line; subs that it calls run until they end or wait.
     /// While call_level() > 0 after INTERP_EXECUTE_FINISH, execute(nullptr) continues.
     int execute(const char *line);
@@ -99,7 +102,7 @@ class Interp
     /// After an abort: [RS274NGC]ON_ABORT_COMMAND with the reason. INTERP_OK, -1 when there is none.
     int on_abort(int reason, const char *message);
     /// Brings the modal state back to that of the move that was executing.
-    int restore_from_tag(const state_tag_t &tag);
+    virtual int restore_from_tag(const state_tag_t &tag);
     /// Offsets as the machine has them in force, when reading was further ahead: parameters
     /// OFFSETS_FIRST..OFFSETS_LAST and the tool offset, machine units.
     enum { OFFSETS_FIRST = 5161, OFFSETS_LAST = 5390, OFFSETS = OFFSETS_LAST - OFFSETS_FIRST + 1 };
@@ -130,7 +133,7 @@ class Interp
     int sequence_number() const; ///< the same, for messages
     int call_level() const;      ///< 0: main program or MDI
     int remap_level() const;
-    const char *command() const;    ///< text of the last line read
+    virtual const char *command() const;    ///< text of the last line read
     const char *line_text() const { return command(); }
     const char *file() const;       ///< program or sub file being read
     const char *main_file() const;  ///< program that was opened last
@@ -163,5 +166,9 @@ class Interp
 
 /// Entry of a pluggable interpreter library ([TASK]INTERPRETER, rs274 -p).
 typedef Interp *(*makeInterp_t)(Canon &);
+/// Where the library of that name is: below lib/linuxcnc, unless the name is a whole path.
+std::string interpreter_path(const std::string &library);
+/// The built-in interpreter when no library is named; null and *why when it can't be had.
+std::unique_ptr<Interp> make_interpreter(const std::string &library, Canon &canon, std::string *why);
 
 #endif

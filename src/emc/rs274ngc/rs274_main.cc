@@ -12,7 +12,6 @@
 
 #include <memory>
 
-#include <dlfcn.h>
 #include <getopt.h>
 #include <unistd.h>
 
@@ -77,6 +76,10 @@ void usage(const char *name)
 void report_error(Session &s, int code)
 {
     s.canon.flush();
+    if (!s.o.plugin.empty() && code == INTERP_ERROR) { // its languages have no documented form of this
+        fputs(s.interp->fault().report().c_str(), stderr);
+        return;
+    }
     const char *text = s.interp->error_text(code);
     fprintf(stderr, "%s\n%s\n", *text ? text : "Unknown error, bad error code", s.interp->line_text());
     if (!s.o.print_stack) return;
@@ -352,33 +355,14 @@ void default_tools()
     for (const char *line : lines) tooldata_read_entry(line);
 }
 
-// The folder above the one this program stands in.
-std::string install_root()
+std::unique_ptr<Interp> interpreter(const std::string &plugin, Canon &canon)
 {
-    char path[4096];
-    const ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
-    std::string text(path, n > 0 ? size_t(n) : 0);
-    for (int i = 0; i < 2; ++i) text.resize(text.rfind('/') == text.npos ? 0 : text.rfind('/'));
-    return text;
-}
-
-std::unique_ptr<Interp> make_interpreter(const std::string &plugin, Canon &canon)
-{
-    if (!plugin.empty()) {
-        const std::string path = plugin[0] == '/' ? plugin : install_root() + "/lib/linuxcnc/" + plugin;
-        if (void *library = dlopen(path.c_str(), RTLD_NOW)) {
-            if (auto make = reinterpret_cast<makeInterp_t>(dlsym(library, "makeInterp"))) {
-                if (Interp *made = make(canon)) {
-                    fprintf(stderr, "emcTaskInit: using custom interpreter '%s'\n", path.c_str());
-                    return std::unique_ptr<Interp>(made);
-                }
-            }
-            fprintf(stderr, "emcTaskInit: could not get makeInterp from interpreter '%s'\n", path.c_str());
-        } else {
-            fprintf(stderr, "emcTaskInit: could not open interpreter '%s': %s\n", path.c_str(), dlerror());
-        }
-    }
-    return std::make_unique<Interp>(canon);
+    std::string why;
+    std::unique_ptr<Interp> made = make_interpreter(plugin, canon, &why);
+    if (!made) fprintf(stderr, "emcTaskInit: %s\n", why.c_str());
+    else if (!plugin.empty())
+        fprintf(stderr, "emcTaskInit: using custom interpreter '%s'\n", interpreter_path(plugin).c_str());
+    return made ? std::move(made) : std::make_unique<Interp>(canon);
 }
 
 // Machine units from the INI; false when it cannot be read.
@@ -419,7 +403,7 @@ int run(int argc, char **argv)
     }
     if (!use_ini(s)) return 1;
     s.canon.set_parameter_file(s.o.var_file);
-    s.interp = make_interpreter(s.o.plugin, s.canon);
+    s.interp = interpreter(s.o.plugin, s.canon);
     s.canon.set_line_text(s.interp->line_text());
     InterpOptions options = InterpOptions::from_environment();
     options.task = s.o.task;

@@ -72,18 +72,12 @@ bool Task::connect_channels() {
 
 // The built-in interpreter, or the one of the library [TASK]INTERPRETER names; null with a message.
 std::unique_ptr<Interp> Task::make_interpreter(TaskCanon &canon) {
-    auto name = ini_.findString("INTERPRETER", "TASK");
-    if (!name || name->empty()) return std::make_unique<Interp>(canon);
-    std::string file = (*name)[0] == '/' ? *name : std::string(kerf_path(KERF_PATH_LIB)) + "/linuxcnc/" + *name;
-    void *library = dlopen(file.c_str(), RTLD_NOW);
-    auto make = library ? reinterpret_cast<makeInterp_t>(dlsym(library, "makeInterp")) : nullptr;
-    if (!make) {
-        const char *why = dlerror();
-        rcs_print_error("emcTaskInit: could not open interpreter '%s': %s\n", file.c_str(), why ? why : "it has no function makeInterp");
-        return nullptr;
-    }
-    if (!interp_) rcs_print("emcTaskInit: using custom interpreter '%s'\n", name->c_str());
-    return std::unique_ptr<Interp>(make(canon));
+    const std::string name = ini_.findStringV("INTERPRETER", "TASK", "");
+    std::string why;
+    std::unique_ptr<Interp> made = ::make_interpreter(name, canon, &why);
+    if (!made) rcs_print_error("emcTaskInit: %s\n", why.c_str());
+    else if (!name.empty() && !interp_) rcs_print("emcTaskInit: using custom interpreter '%s'\n", name.c_str());
+    return made;
 }
 
 InterpOptions Task::interp_options() const {

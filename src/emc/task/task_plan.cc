@@ -402,6 +402,7 @@ int Task::plan_init() {
         if (r == INTERP_EXECUTE_FINISH) r = INTERP_OK;
         if (r > INTERP_MIN_ERROR) operator_error(interp_->error_text(r));
         interp_->set_mdi_slice(static_cast<int>(interp_max_len_));
+        if (r > INTERP_MIN_ERROR && !ini_.findStringV("INTERPRETER", "TASK", "").empty()) return 0; // it is of another language
         return r;
     }
     interp_->set_mdi_slice(static_cast<int>(interp_max_len_));

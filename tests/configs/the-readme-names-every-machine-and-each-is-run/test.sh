@@ -2,7 +2,7 @@
 # configs/README names each INI file once, with the program that the tests run on it; each has a text
 # for the picker, and each folder a README whose signals, pins and files are there; linuxcnc_check_ini has nothing to say against any of them.
 top=$(cd ../../.. && pwd)
-sed -nE 's/^  (\S+\.ini) .* (\S+\.ngc)$/\1 \2/p' "$top/configs/README" | sort > readme.tmp
+sed -nE 's/^  (\S+\.ini) .* (\S+\.(ngc|calls))$/\1 \2/p' "$top/configs/README" | sort > readme.tmp
 sed 's/#.*//' ../*/machines | awk 'NF == 2 { print $1, $2 }' | sort > machines.tmp
 (cd "$top/configs/sim" && find . -name '*.ini' | sed 's,^\./,,' | sort) > files.tmp
 trap 'rm -f readme.tmp machines.tmp files.tmp check.tmp' EXIT

@@ -127,14 +127,20 @@ int run(const Options &o, const linuxcnc::IniFile &ini, const EMC_STAT &now) {
     TaskCanon canon(stat, list, limits, settings);
     canon.block_delete = o.block_delete;
     wire(canon);
-    Interp interp(canon);
-    if (!prepare(interp, canon, list, time, o, how)) return 1;
+    const std::string language = ini.findStringV("INTERPRETER", "TASK", "");
+    std::string why;
+    const std::unique_ptr<Interp> interp = make_interpreter(language, canon, &why);
+    if (!interp) {
+        fprintf(stderr, "kerf-time: %s\n", why.c_str());
+        return 1;
+    }
+    if (!prepare(*interp, canon, list, time, o, how)) return 1;
 
     DryRun dry(stat, limits, settings);
     dry.watch = [&time](const InterpList::Entry *order) { time.take(order); };
-    auto own = std::make_unique<Interp>(dry.canon());
+    std::unique_ptr<Interp> own = make_interpreter(language, dry.canon(), &why);
     own->keep_parameters(false);
-    if (own->init(how) > INTERP_MIN_ERROR || !dry.begin(std::move(own), canon, interp, o.program, INT_MAX)) {
+    if (own->init(how) > INTERP_MIN_ERROR || !dry.begin(std::move(own), canon, *interp, o.program, INT_MAX)) {
         fprintf(stderr, "kerf-time: %s\n", dry.error().c_str());
         return 1;
     }
@@ -144,7 +150,6 @@ int run(const Options &o, const linuxcnc::IniFile &ini, const EMC_STAT &now) {
         shown = seconds;
         printf("%d %ld %.3f\n", line, number, seconds);
     };
-    std::string why;
     DryRun::Result result = DryRun::Result::more;
     while (result == DryRun::Result::more && why.empty()) {
         result = dry.step(LINES);
