@@ -174,9 +174,19 @@ def open_display(program, class_name):
     def trouble(kind, value, place):
         """An interrupt (halcmd unload, Control-C) ends the program; other errors are told and it goes on."""
         if kind is KeyboardInterrupt:
-            root.destroy()
+            root.at_interrupt()
             return
         text = "".join(traceback.format_exception(kind, value, place))
         print(f"{text}{program}: report: {recorder.write(text)}", file=sys.stderr)
     root.report_callback_exception = trouble
+    root.at_interrupt = root.destroy
     return root
+
+
+def run(root, close):
+    """The main loop of a window that has something to keep: close() ends it without questions, also at an interrupt."""
+    root.at_interrupt = close
+    try:
+        root.mainloop()
+    except KeyboardInterrupt:
+        close()

@@ -141,6 +141,13 @@ print(said(), window.interval, [tree.item(i, "text") for i in tree.get_children(
 show_watch()
 print(shown("siggen.0.frequency")[0], shown("count")[0])
 
+window.add_words(["sig+wide"])
+hal.set_s("wide", -2 ** 63)
+view.update_values()
+row = view.rows[place("wide")]
+print(view.canvas.itemcget(row.value_id, "text"), "beside the buttons:", view.canvas.bbox(row.value_id)[2] <= row.widgets[0].winfo_x())
+view.remove(row)
+
 print("== commands")
 hand.click(window.command)
 for line in ("setp and2.0.in0 1", "setp and2.0.in0 1", "newsig fresh float", "setp nothing 1", "show thread"):

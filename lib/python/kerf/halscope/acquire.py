@@ -141,6 +141,11 @@ class Acquisition:
         self._wanted = None
         self.scope.reset()
 
+    def close(self):
+        """The memory of scope_rt is given back while the component is still there: nothing else can be done with this."""
+        self.stop()
+        self.scope = None
+
     @property
     def idle(self):
         return self._wanted is None and self.scope.state in (rt.IDLE, rt.RESET)
@@ -203,7 +208,7 @@ class Offline:
     def stop(self):
         pass
 
-    force = stop
+    force = close = stop
 
     def retrigger(self, settings):
         pass

@@ -77,7 +77,7 @@ def main(words):
         root.mainloop()
     except KeyboardInterrupt:
         pass
-    acq.stop()
+    acq.close()
     try:
         configfile.save(outfile, screen.settings)
     except OSError as e:

@@ -102,5 +102,5 @@ class Window(halshow.Window):
 def main(_arguments):
     root = tkstyle.open_display("halconfig", "Halconfig")
     Window(root)
-    root.mainloop()
+    tkstyle.run(root, root.destroy)
     return 0

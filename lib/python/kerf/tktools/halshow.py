@@ -651,5 +651,5 @@ def main(arguments):
     window = Window(root, Preferences(preferences_path() if prefs else None), real, integer)
     if files:
         window.load(files[0])
-    root.mainloop()
+    tkstyle.run(root, window.exit)
     return 0

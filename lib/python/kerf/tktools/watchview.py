@@ -10,6 +10,7 @@ from .watch import Item
 
 COLOURS = {"pin": "pin", "sig": "signal", "param": "param"}
 CONNECTION_TICKS = 10       # updates between two looks at what is connected
+LONGEST = 40                # characters of a value that are shown
 
 
 class Row:
@@ -27,6 +28,7 @@ class WatchView(ttk.Frame):
         super().__init__(parent)
         self.style, self.formats, self.say, self.show_in_tree, self.text_dialog = style, formats, say, show_in_tree, text_dialog
         self.column, self.rows, self.ticks, self.ask_value = column, [], 0, simpledialog.askstring
+        self.widest = 0             # pixels of the widest value of this list so far
         self.canvas = tk.Canvas(self, highlightthickness=0, background=style.colours["field"])
         bar = ttk.Scrollbar(self, command=self.canvas.yview)
         self.canvas.configure(yscrollcommand=bar.set)
@@ -57,6 +59,7 @@ class WatchView(ttk.Frame):
 
     def show(self, items):
         """These (kind, name) pairs."""
+        self.widest = 0
         self.rows = [Row(Item(kind, name)) for kind, name in dict.fromkeys(items)]
         self.layout()
 
@@ -79,7 +82,7 @@ class WatchView(ttk.Frame):
                 widget.destroy()
             row.widgets, row.shown = [], None
         left = px(8)
-        buttons = left + px(self.column)
+        buttons = left + max(px(self.column), self.widest + px(8))
         for place, row in enumerate(self.rows):
             row.item.refresh()
             row.access = row.item.access
@@ -129,12 +132,18 @@ class WatchView(ttk.Frame):
         if self.ticks % CONNECTION_TICKS == 0 and any(bool(row.item.refresh()) and row.item.access != row.access for row in self.rows):
             self.layout()
             return
+        wide = self.widest
         for row in self.rows:
             value = row.item.value()
             text = self.formats.text(row.item.type, value)
             if text != row.shown:
                 row.shown = text
-                self.draw(row, value, text)
+                self.draw(row, value, text if len(text) <= LONGEST else text[:LONGEST] + "…")
+                if box := self.canvas.bbox(row.value_id):
+                    wide = max(wide, box[2] - self.style.px(8))
+        if wide > max(self.widest, self.style.px(self.column)):
+            self.widest = wide
+            self.layout()
 
     def draw(self, row, value, text):
         """A lamp for a bit and for what is gone; else text."""
