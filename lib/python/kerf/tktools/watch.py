@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Watch lists of halshow: pins, parameters and signals with their values, and the files they are kept in."""
 
+import contextlib
 import time
 import tkinter
 from pathlib import Path
@@ -30,6 +31,17 @@ def find(kind, name):
     return {"pin": query.pin, "param": query.param, "sig": query.signal}[kind](name)
 
 
+@contextlib.contextmanager
+def quiet():
+    """Without messages of the HAL library: a port that has no buffer yet gives one at every look."""
+    level = hal.get_msg_level()
+    hal.set_msg_level(hal.MSG_NONE)
+    try:
+        yield
+    finally:
+        hal.set_msg_level(level)
+
+
 class Item:
     """One line of a watch list. Values are read from HAL when asked for."""
 
@@ -44,7 +56,8 @@ class Item:
     def refresh(self):
         """Type, direction and connection again."""
         try:
-            self.info = find(self.kind, self.name)
+            with quiet():
+                self.info = find(self.kind, self.name)
         except RuntimeError:
             self.info = None
         return self.info
@@ -72,7 +85,8 @@ class Item:
     def value(self):
         """The value now, or None when the item is gone."""
         try:
-            return hal.get_s(self.name) if self.kind == "sig" else hal.get_p(self.name)
+            with quiet():
+                return hal.get_s(self.name) if self.kind == "sig" else hal.get_p(self.name)
         except RuntimeError:
             return None
 
