@@ -76,31 +76,36 @@ static bool usable(const struct scope_shm *s)
            (rtapi_u64)s->rec_len * (rtapi_u64)s->sample_len <= s->buf_len;
 }
 
-static void begin(struct scope_shm *s)
+static void begin(struct scope_shm *s, rtapi_s32 from)
 {
     __atomic_store_n(&s->count, 0, __ATOMIC_RELEASE);
     __atomic_store_n(&s->force, 0, __ATOMIC_RELAXED);
     phase = s->mult;
     waited = 0;
     above_known = false;
-    change(s, SCOPE_INIT, !usable(s) ? SCOPE_IDLE : s->roll ? SCOPE_ROLL : SCOPE_PRE_TRIG);
+    change(s, from, !usable(s) ? SCOPE_IDLE : s->roll ? SCOPE_ROLL : SCOPE_PRE_TRIG);
+}
+
+static bool sampling(rtapi_s32 state)
+{
+    return state == SCOPE_PRE_TRIG || state == SCOPE_TRIG_WAIT || state == SCOPE_POST_TRIG || state == SCOPE_ROLL;
 }
 
 static void sample(void *arg, long period)
 {
     struct scope_shm *s = arg;
+    bool other_rate = period != s->period;
     s->period = period;
     __atomic_store_n(&s->runs, s->runs + 1, __ATOMIC_RELAXED);
     rtapi_s32 state = __atomic_load_n(&s->state, __ATOMIC_ACQUIRE);
-    if (state == SCOPE_INIT) {
-        begin(s);
+    if (state == SCOPE_INIT || (other_rate && sampling(state))) { /* a record has one rate */
+        begin(s, state);
         state = __atomic_load_n(&s->state, __ATOMIC_ACQUIRE);
     } else if (state == SCOPE_RESET) {
         change(s, SCOPE_RESET, SCOPE_IDLE);
         return;
     }
-    bool sampling = state == SCOPE_PRE_TRIG || state == SCOPE_TRIG_WAIT || state == SCOPE_POST_TRIG || state == SCOPE_ROLL;
-    if (!sampling || !usable(s) || ++phase < s->mult) {
+    if (!sampling(state) || !usable(s) || ++phase < s->mult) {
         return;
     }
     phase = 0;

@@ -3,7 +3,7 @@
 # same values as sampler takes in the same cycles. In virtual time.
 export KERF_CLOCK=virtual
 cat > t.hal <<'HAL'
-loadrt threads name1=base period1=25000
+loadrt threads name1=base period1=25000 name2=slow period2=50000
 loadrt siggen
 loadrt sampler cfg=lf depth=60000
 addf siggen.0.update base

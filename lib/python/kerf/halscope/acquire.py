@@ -65,20 +65,28 @@ class Acquisition:
     """scope_rt in use by a component of this process (hal.component)."""
 
     def __init__(self, component, samples):
-        if not hal.query.funct(FUNCTION):
-            halcmd("loadrt", "scope_rt", f"num_samples={samples}")
-        try:
-            self.scope = rt.Scope(component.id)
-        except RuntimeError as e:
-            raise ScopeError(str(e)) from None
-        self.samples = self.scope.buf_len
+        self._component, self.samples = component, samples
+        self._open()
         self._numbers, self._channels, self._mult, self._pre, self._length = [], [], 1, 0, 1
         self._wanted = None          # what to start as soon as the realtime part is free
         self._rolling = False
+        self.missing = set()         # channels whose source is not in HAL any more
         self.scope.reset()
 
+    def _open(self):
+        if not hal.query.funct(FUNCTION):
+            halcmd("loadrt", "scope_rt", f"num_samples={self.samples}")
+        try:
+            self.scope = rt.Scope(self._component.id)
+        except RuntimeError as e:
+            raise ScopeError(str(e)) from None
+        self.samples = self.scope.buf_len
+
     def link(self, thread):
-        """Makes a thread run the function, and no other."""
+        """Makes a thread run the function, and no other. The realtime part is loaded again when it has gone meanwhile."""
+        if not hal.query.funct(FUNCTION):
+            self._open()
+            self.scope.reset()
         now = linked_thread()
         if now == thread:
             return
@@ -126,8 +134,7 @@ class Acquisition:
 
     def _resolve(self):
         """Values move when pins are linked: says again where they are."""
-        for place, c in enumerate(self._channels):
-            self.scope.source(place, c.kind, c.name)
+        self.missing = {n for place, (n, c) in enumerate(zip(self._numbers, self._channels)) if not self.scope.source(place, c.kind, c.name)}
 
     def retrigger(self, settings):
         """The trigger's level, edge or mode changed while a record is taken."""
@@ -185,7 +192,7 @@ class Acquisition:
 
 class Offline:
     """In place of an Acquisition where no realtime runs: log files can be looked at."""
-    samples, idle = st.DEFAULT_SAMPLES, True
+    samples, idle, missing = st.DEFAULT_SAMPLES, True, frozenset()
 
     def link(self, thread):
         raise ScopeError(_("No realtime is running."))

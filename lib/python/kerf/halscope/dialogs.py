@@ -37,7 +37,7 @@ class RateDialog(tk.Toplevel):
         rows = ((_("Sample Period:"), self.period_text, None), (_("Sample Rate:"), self.rate_text, None),
                 (_("Multiplier:"), self.mult, (1, st.MAX_MULT, 1)), (_("Samples:"), self.samples, (st.MIN_SAMPLES, st.MAX_SAMPLES, 1000)))
         for row, (title, variable, limits) in enumerate(rows, 2):
-            ttk.Label(body, text=title).grid(row=row, column=0, sticky="w", pady=2)
+            ttk.Label(body, text=title).grid(row=row, column=0, sticky="w", pady=2, padx=(0, 6))
             if limits:
                 w = ttk.Spinbox(body, textvariable=variable, from_=limits[0], to=limits[1], increment=limits[2], width=12)
                 variable.trace_add("write", lambda *_: self._show())

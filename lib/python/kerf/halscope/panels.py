@@ -207,4 +207,5 @@ class Channels(ttk.Frame):
             b.configure(background=colour, activebackground=colour, foreground="#101010" if on else c["faint"],
                         highlightbackground=c["ink"] if n == s.selected else c["line"], highlightcolor=c["ink"])
         channel = self.owner.selected_channel()
-        self.name.configure(text=channel.name if channel else "----")
+        gone = s.selected in self.owner.missing
+        self.name.configure(text=_("%s: not in HAL") % channel.name if gone else channel.name if channel else "----", style="Bad.TLabel" if gone else "TLabel")

@@ -31,6 +31,7 @@ class Screen:
         self.root, self.settings, self.acq, self.style = root, settings, acq, style
         self.record, self.log = None, None          # what is shown; the file that it came from
         self.picker = self.dialog = None
+        self.missing = set()                        # channels whose source has gone
         root.title("HAL Oscilloscope")
         tkstyle.centre(root, style.px(SIZE[0]), style.px(SIZE[1]), (style.px(MINIMUM[0]), style.px(MINIMUM[1])))
         self._menus()
@@ -87,6 +88,8 @@ class Screen:
     def state_text(self):
         if self.log:
             return _("LOG %s") % self.log
+        if self.settings.run_mode != st.STOP and not self.period:
+            return _("IN NO THREAD")
         text = STATES[self.acq.progress()[0]] if self.settings.run_mode != st.STOP else ""
         return _(text) if text else ""
 
@@ -162,7 +165,10 @@ class Screen:
         mode = self.settings.run_mode
         if mode == st.STOP:
             return
-        record = self.acq.poll()
+        record, missing = self.acq.poll(), self.missing
+        self.missing = set(self.acq.missing)
+        if self.missing != missing:
+            self.channels.show()
         self.horizontal.progress()
         if record is None:
             self._show_state()
