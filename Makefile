@@ -5,6 +5,7 @@
 #   make            everything, run in place: bin/ lib/ rtlib/ include/
 #   make sanitize   the same with ASan and UBSan, into sanitize/
 #   make screenshots pictures of the screens into docs/images
+#   make fit-matrix  is there room for every text, on every screen, in every language
 #   make bench      measurements (never part of the tests)
 #   make fuzz       libFuzzer programs, into objects/fuzz (needs clang)
 #   make install DESTDIR=...    the documented installed layout
@@ -126,9 +127,11 @@ $(T)/include/$(notdir $(1)): $(1)
 endef
 $(foreach h,$(PUBLIC_HEADERS),$(eval $(call public_header,$(h))))
 
-.PHONY: all headers programs modules clean distclean sanitize bench install screenshots
+.PHONY: all headers programs modules clean distclean sanitize bench install screenshots fit-matrix
 screenshots: all
 	scripts/screenshots
+fit-matrix: all
+	scripts/fit-matrix
 headers: $(PUBLIC) src/config.h
 all: headers $(LIBRARIES) $(PROGRAMS) $(SCRIPTS) $(RTMODULES) $(PYMODULES) $(O)/python/python3 $(EXTRA_TARGETS)
 

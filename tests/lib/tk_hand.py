@@ -12,8 +12,6 @@ Tk's errors are printed as TRACEBACK lines: no test expects one.
 import contextlib
 import subprocess
 import sys
-import tkinter.font
-import tkinter.ttk
 import traceback
 
 
@@ -117,46 +115,3 @@ class Hand:
         for button in waiting:
             print(f"no box for {button}")
 
-
-TEXTS = ("TLabel", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton", "Label", "Button", "Checkbutton", "Radiobutton")
-
-
-def letters_width(widget):
-    """Pixels that the text of a widget of a given width needs; 0: the widget is as wide as it likes, or breaks its lines."""
-    try:
-        if not int(str(widget.cget("width")) or 0) or int(str(widget.cget("wraplength")) or 0):
-            return 0
-        font = str(widget.cget("font"))
-    except tkinter.TclError:
-        font = ""
-    if not font:
-        font = tkinter.ttk.Style(widget).lookup(str(widget.cget("style")) or widget.winfo_class(), "font") or "TkDefaultFont"
-    return max((tkinter.font.Font(widget, font=font).measure(line) for line in str(widget.cget("text")).split("\n")), default=0)
-
-
-def clipped(window):
-    """Texts of a window (or of the windows above it) that have less room than they need, or are out of sight."""
-    found = []
-
-    def look(widget, within):
-        for child in widget.winfo_children():
-            if not child.winfo_ismapped():
-                continue
-            outer = within
-            if child.winfo_class() in ("Toplevel", "Dialog"):
-                outer = child
-            elif child.winfo_class() == "Canvas":
-                outer = None            # scrolls
-            if child.winfo_class() in TEXTS:
-                short = max(child.winfo_reqwidth(), letters_width(child)) > child.winfo_width() + 1 or child.winfo_reqheight() > child.winfo_height() + 1
-                out = outer and (child.winfo_rootx() + child.winfo_width() > outer.winfo_rootx() + outer.winfo_width() + 1
-                                 or child.winfo_rooty() + child.winfo_height() > outer.winfo_rooty() + outer.winfo_height() + 1)
-                if short or out:
-                    found.append(f"{child.winfo_class()} {str(child.cget('text'))!r} {'needs' if short else 'is out of sight,'} "
-                                 f"{child.winfo_reqwidth()}x{child.winfo_reqheight()} has {child.winfo_width()}x{child.winfo_height()}")
-            look(child, outer)
-    look(window, window)
-    screen = window.winfo_screenwidth(), window.winfo_screenheight()
-    if window.winfo_width() > screen[0] or window.winfo_height() > screen[1]:
-        found.append(f"{window.title()} is larger than the screen")
-    return found

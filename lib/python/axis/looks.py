@@ -57,7 +57,7 @@ class LooksPart:
     def apply_style(self):
         """Fonts, option database, colours of the Tcl side."""
         root = self.root
-        self.style = style = tkstyle.apply(root, self.prefs.getpref("dark_theme", False))
+        self.style = style = tkstyle.apply(root, self.prefs.getpref("dark_theme", False), fits=False)
         colours = dict(style.colours) | (DARK if style.dark else LIGHT)
         for name, value in colours.items():
             root.tk.setvar(f"::axis::colour({name})", value)

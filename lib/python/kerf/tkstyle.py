@@ -5,8 +5,8 @@
     style = tkstyle.apply(root)         # once, before the first widget
     style.colours["value"], style.px(8)
 
-Environment: KERF_THEME=light|dark (else what AXIS remembers), KERF_SCALE=1 to 3 (else what AXIS remembers, else from
-the screen).
+Environment: KERF_THEME=light|dark, KERF_TOUCH=0|1 for what is large enough for gloves (else what AXIS remembers),
+KERF_SCALE=1 to 3 (else what AXIS remembers, else from the screen).
 """
 
 import configparser
@@ -20,6 +20,7 @@ from pathlib import Path
 from tkinter import ttk
 
 from .failures import Recorder
+from .tkfit import Fit
 from .tree import Tree
 
 LIGHT = {"face": "#eceae6", "ink": "#1c1c1a", "field": "#ffffff", "line": "#b8b4ac", "pressed": "#dcd8d0", "select": "#2563a8",
@@ -33,16 +34,24 @@ SMALL_SCREEN = 700      # pixels: less high screens have smaller letters
 MAX_SCALE = 3.0
 
 
-@dataclass(frozen=True)
+@dataclass
 class Style:
-    """What apply() found: colours by purpose, and how many pixels a pixel of a usual screen is."""
+    """What apply() found: colours by purpose, how many pixels a pixel of a usual screen is, room for gloves (0 to 1).
+
+    scale and touch become less while a window does not fit on the screen (tkfit).
+    """
     colours: dict
     dark: bool
     scale: float
+    touch: float = 0.0
 
     def px(self, pixels):
         """A length on this screen, from one on a usual screen."""
         return max(1, round(pixels * self.scale))
+
+    def roomy(self, pixels, more):
+        """A length, with so many pixels more where fingers have to hit."""
+        return self.px(pixels + more * self.touch)
 
 
 def remembered(name, kind, default):
@@ -60,6 +69,11 @@ def wants_dark():
     return theme == "dark" if theme else remembered("dark_theme", "getboolean", False)
 
 
+def wants_touch():
+    given = os.environ.get("KERF_TOUCH", "")
+    return given != "0" if given else remembered("large_touch_targets", "getboolean", False)
+
+
 def screen_scale(root):
     """1 on a usual screen; more where pixels are small, by its resolution or its size in pixels."""
     try:
@@ -73,18 +87,22 @@ def screen_scale(root):
     return min(max(by_density, by_height, 1.0), MAX_SCALE)
 
 
-def apply(root, dark=None):
-    """Sets fonts, colours and sizes of all widgets of this program; returns the Style."""
+def apply(root, dark=None, fits=True):
+    """Sets fonts, colours and sizes of all widgets of this program; returns the Style. fits: windows get the room they need."""
     dark = wants_dark() if dark is None else dark
-    colours = DARK if dark else LIGHT
-    style = Style(colours, dark, screen_scale(root))
-    letters = style.px(NORMAL_PX if root.winfo_screenheight() >= SMALL_SCREEN else NORMAL_PX - 1)
-    for name in ("TkDefaultFont", "TkTextFont", "TkMenuFont", "TkHeadingFont", "TkCaptionFont", "TkTooltipFont"):
-        tkinter.font.nametofont(name, root).configure(family="DejaVu Sans", size=-letters, weight="normal")
-    tkinter.font.nametofont("TkFixedFont", root).configure(family="DejaVu Sans Mono", size=-letters)
-    _options(root, colours, style)
-    _themed(ttk.Style(root), colours, style, letters)
-    root.configure(background=colours["face"])
+    style = Style(DARK if dark else LIGHT, dark, screen_scale(root), float(fits and wants_touch()))
+
+    def restyle():
+        letters = style.px(NORMAL_PX if root.winfo_screenheight() >= SMALL_SCREEN else NORMAL_PX - 1)
+        for name in ("TkDefaultFont", "TkTextFont", "TkMenuFont", "TkHeadingFont", "TkCaptionFont", "TkTooltipFont"):
+            tkinter.font.nametofont(name, root).configure(family="DejaVu Sans", size=-letters, weight="normal")
+        tkinter.font.nametofont("TkFixedFont", root).configure(family="DejaVu Sans Mono", size=-letters)
+        _options(root, style.colours, style)
+        _themed(ttk.Style(root), style.colours, style, letters)
+    restyle()
+    root.configure(background=style.colours["face"])
+    if fits:
+        Fit(root, style, restyle)
     return style
 
 
@@ -98,7 +116,7 @@ def _options(root, colours, style):
                            ("*selectBackground", colours["select"]), ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
                            ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),
                            ("*Spinbox.background", colours["field"]), ("*Spinbox.buttonBackground", colours["face"]),
-                           ("*Scale.troughColor", colours["pressed"]), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.px(2)),
+                           ("*Scale.troughColor", colours["pressed"]), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.roomy(2, 5)),
                            # Tk's file dialogs have white lists in every theme.
                            ("*TkFDialog*Canvas.foreground", "black"), ("*TkChooseDir*Canvas.foreground", "black"),
                            ("*TCombobox*Listbox.font", "TkDefaultFont")):
@@ -112,41 +130,41 @@ def _themed(theme, colours, style, letters):
                     darkcolor=face, troughcolor=colours["pressed"], selectbackground=colours["select"], selectforeground="#ffffff",
                     insertcolor=colours["ink"], focuscolor=colours["select"], font="TkDefaultFont")
     theme.map(".", foreground=[("disabled", colours["off"])])
-    theme.configure("TButton", padding=(style.px(10), style.px(4)), anchor="center")
-    theme.configure("Toolbutton", padding=(style.px(5), style.px(2)))
+    theme.configure("TButton", padding=(style.px(10), style.roomy(4, 7)), anchor="center")
+    theme.configure("Toolbutton", padding=(style.px(5), style.roomy(2, 8)))
     theme.map("TButton", background=[("disabled", face), ("pressed", line), ("active", colours["pressed"])])
-    theme.configure("Small.TButton", padding=(style.px(4), style.px(1)), width=-4)
+    theme.configure("Small.TButton", padding=(style.roomy(4, 4), style.roomy(1, 9)), width=-4)
     for name in ("TCheckbutton", "TRadiobutton"):
-        theme.configure(name, indicatorsize=style.px(14), padding=style.px(2), indicatorbackground=colours["field"],
+        theme.configure(name, indicatorsize=style.roomy(14, 8), padding=style.roomy(2, 6), indicatorbackground=colours["field"],
                         indicatorforeground=colours["ink"])
         theme.map(name, background=[("active", face)], indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
-    theme.configure("TMenubutton", arrowsize=style.px(5), padding=(style.px(6), style.px(4)))
+    theme.configure("TMenubutton", arrowsize=style.px(5), padding=(style.px(6), style.roomy(4, 7)))
     for name in ("Horizontal.TScale", "Vertical.TScale"):
-        theme.configure(name, sliderlength=style.px(30), background=line, lightcolor=line, darkcolor=line)
+        theme.configure(name, sliderlength=style.roomy(30, 15), arrowsize=style.roomy(14, 22), background=line, lightcolor=line, darkcolor=line)
         theme.map(name, background=[("disabled", face), ("active", colours["select"])])
-    theme.configure("TEntry", padding=style.px(3))
+    theme.configure("TEntry", padding=(style.px(3), style.roomy(3, 7)))
     theme.map("TEntry", fieldbackground=[("disabled", face), ("readonly", face)])
-    theme.configure("TCombobox", padding=style.px(3), arrowsize=style.px(14))
+    theme.configure("TCombobox", padding=(style.px(3), style.roomy(3, 7)), arrowsize=style.roomy(14, 10))
     theme.map("TCombobox", fieldbackground=[("readonly", colours["field"])], foreground=[("readonly", colours["ink"])],
               selectbackground=[("readonly", colours["field"])], selectforeground=[("readonly", colours["ink"])])
     for name in ("Vertical.TScrollbar", "Horizontal.TScrollbar"):
-        theme.configure(name, arrowsize=style.px(14), background=face, arrowcolor=colours["ink"])
+        theme.configure(name, arrowsize=style.roomy(14, 10), background=face, arrowcolor=colours["ink"])
         theme.map(name, background=[("disabled", face), ("active", colours["pressed"])])
-    theme.configure("Treeview", rowheight=round(letters * 1.65), background=colours["field"], foreground=colours["ink"],
+    theme.configure("Treeview", rowheight=round(letters * (1.65 + style.touch)), background=colours["field"], foreground=colours["ink"],
                     fieldbackground=colours["field"], indent=style.px(18), borderwidth=1)
     theme.map("Treeview", background=[("selected", colours["select"])], foreground=[("selected", "#ffffff")])
-    theme.configure("Treeview.Heading", background=colours["heading"], padding=style.px(3))
+    theme.configure("Treeview.Heading", background=colours["heading"], padding=style.roomy(3, 6))
     theme.map("Treeview.Heading", background=[("active", colours["pressed"])])
-    theme.configure("Treeview.Item", indicatorsize=style.px(12))
+    theme.configure("Treeview.Item", indicatorsize=style.roomy(12, 8))
     theme.configure("TNotebook", tabmargins=(style.px(2), style.px(4), style.px(2), 0))
-    theme.configure("TNotebook.Tab", padding=(style.px(10), style.px(4)), background=colours["pressed"])
-    theme.map("TNotebook.Tab", background=[("selected", face)], padding=[("selected", (style.px(10), style.px(6)))])
+    theme.configure("TNotebook.Tab", padding=(style.px(10), style.roomy(4, 7)), background=colours["pressed"])
+    theme.map("TNotebook.Tab", background=[("selected", face)], padding=[("selected", (style.px(10), style.roomy(6, 7)))])
     theme.configure("TLabelframe", bordercolor=line)
     theme.configure("Value.TLabel", font="TkFixedFont")
     theme.configure("Faint.TLabel", foreground=colours["faint"])
     theme.configure("Bad.TLabel", foreground=colours["bad"])
     theme.configure("Horizontal.TPanedwindow", background=face)
-    theme.configure("Sash", sashthickness=style.px(6), gripcount=style.px(10))
+    theme.configure("Sash", sashthickness=style.roomy(6, 8), gripcount=style.px(10))
 
 
 def centre(window, width, height, minimum=None):

@@ -72,7 +72,7 @@ class Row:
 
     def bit(self, mode, choice):
         tk, ttk, button = self.tk, self.ttk, Button(self.item, mode)
-        self.button = tk.Button(self.frame, width=10)
+        self.button = tk.Button(self.frame, width=10, pady=self.style.roomy(3, 5))
         self.button.bind("<ButtonPress-1>", lambda _event: self.press(button))
         self.button.bind("<ButtonRelease-1>", lambda _event: self.try_to(button.release))
         self.button.bind("<KeyPress-space>", lambda _event: self.press(button))

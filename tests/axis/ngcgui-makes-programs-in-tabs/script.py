@@ -7,7 +7,7 @@ from tkinter import ttk
 
 import operator_lib
 from kerf.tktools import ngcgui_tabs
-from tk_hand import clipped
+import room
 
 made = []
 start = ngcgui_tabs.Tabs.__init__
@@ -82,7 +82,7 @@ def script(op):
     tabs.words.append("noremove")
     print("a new one:", [text for text in tabs.add("line.ngc").buttons if not text[0].isupper()], file=out)
     op.wait(0.2)
-    print([p.name for p in tabs.pages], "cut off:", clipped(line.frame), file=out)
+    print([p.name for p in tabs.pages], "cut off:", [t for t in room.troubles(op.root) if str(line.frame) in t], file=out)
     tabs.pages[3].buttons["\N{LEFTWARDS ARROW} move"].invoke()
     line.buttons["remove"].invoke()
     op.wait(0.2)

@@ -1,16 +1,14 @@
-"""windows.py: texts that have no room, and unreadable colours, of all small windows.
+"""windows.py LOOK...: texts that have no room, and unreadable colours, of all small windows (tests/tk-tools/lib/fit_check.py).
 
 windows.py untranslated: their texts that come from no catalogue.
 """
-import re
 import sys
-import tkinter.font
 from pathlib import Path
 from types import SimpleNamespace
 
 sys.path.insert(0, "../../../src/hal/user_comps")
+from kerf import language
 if "untranslated" in sys.argv:
-    from kerf import language
     language.catalogue = lambda: SimpleNamespace(gettext=lambda text: "\u00ab" + text.strip() + "\u00bb")
 import hal
 import linuxcnc
@@ -23,9 +21,8 @@ from kerf.haltools import latency_panel, latency_view
 from kerf.tktools import debuglevel, emccalib, hal_manualtoolchange, halmeter, halshow, image_to_gcode, linuxcnctop, mdro, ngcgui, teach_in, tooledit
 from kerf.tktools.calibration import Calibration
 from kerf.tktools.tooltable import Table
-from kerf.language import _
 from kerf.tree import Tree
-from tk_hand import clipped
+import fit_check
 
 
 class Status:
@@ -111,61 +108,7 @@ PROGRAMS = {
     "image-to-gcode": lambda root: image_to_gcode.Window(root, Image.new("L", (40, 30)), "a.png", relief.Settings()),
     "mdro": lambda root: mdro.Window(root, mdro.Readout(list("XYZ"), lambda i: 1.25, "inch"), component, 20),
 }
-
-
-def luminance(root, colour):
-    r, g, b = (c / 65535 for c in root.winfo_rgb(colour))
-    return sum(w * (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4) for w, c in ((0.2126, r), (0.7152, g), (0.0722, b)))
-
-
-def contrast(root, a, b):
-    a, b = sorted((luminance(root, a), luminance(root, b)))
-    return (b + 0.05) / (a + 0.05)
-
-
-def texts(widget):
-    """Whatever the widgets, menus and pages below this one say."""
-    for child in widget.winfo_children():
-        kind = child.winfo_class()
-        if kind == "Menu":
-            yield from (child.entrycget(n, "label") for n in range((child.index("end") or 0) + 1) if child.type(n) not in ("separator", "tearoff"))
-        elif kind == "TNotebook":
-            yield from (child.tab(page, "text") for page in child.tabs())
-        elif kind == "Canvas":
-            yield from (child.itemcget(item, "text") for item in child.find_all() if child.type(item) == "text")
-        elif kind == "Toplevel":
-            yield child.title()
-        elif "text" in child.keys():
-            yield str(child.cget("text"))
-        yield from texts(child)
-
-
-def untranslated(root):
-    """Texts with words that did not pass through a catalogue, as a set."""
-    found = {" ".join(re.sub("\u00ab.*\u00bb", "", text, flags=re.S).split()) for text in [root.title(), *texts(root)]}
-    return {text for text in found if re.search("[a-zA-Z]{2}", text)}
-
-
-for name, make in PROGRAMS.items():
-    root = tkstyle.open_display(name, "Test")
-    root.report_callback_exception = lambda *what: print("TRACEBACK", what)
-    window = make(root)
-    for page in window.book.tabs() if hasattr(window, "book") else [None]:
-        if page:
-            window.book.select(page)
-        root.update()
-        root.update()
-        for text in [] if "untranslated" in sys.argv else clipped(root):
-            print(f"{name}: {text}")
-    if "untranslated" in sys.argv:
-        print(f"{name}:", "; ".join(sorted(untranslated(root))))
-    root.destroy()
 if "untranslated" in sys.argv:
-    sys.exit()
-root = tkstyle.open_display("letters", "Test")
-style = tkstyle.apply(root)
-print(_("Cancel") + ":", "letters", -tkinter.font.nametofont("TkDefaultFont", root).cget("size"))
-for back, inks in (("face", ("ink", "bad", "good", "faint")), ("field", ("ink", "pin", "signal", "param", "chart"))):
-    for ink in inks:
-        if contrast(root, style.colours[ink], style.colours[back]) < (3 if ink == "chart" else 4.5):
-            print(f"{ink} on {back}: contrast {contrast(root, style.colours[ink], style.colours[back]):.1f}")
+    fit_check.show_untranslated(PROGRAMS)
+else:
+    fit_check.run(PROGRAMS, sys.argv[1:])

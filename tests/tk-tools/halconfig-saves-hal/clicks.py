@@ -2,7 +2,8 @@ from types import SimpleNamespace
 
 from kerf import tkstyle
 from kerf.tktools import halconfig
-from tk_hand import Hand, clipped
+import room
+from tk_hand import Hand
 
 root = tkstyle.open_display("halconfig", "Halconfig")
 window = halconfig.Window(root)
@@ -19,7 +20,7 @@ window.menus["File"].invoke("Save HAL Net")
 print("given up:", window.status.cget("text"))
 window.exit()
 hand.settle()
-print([(t, str(b.cget("state"))) for t, b in window.answer_buttons.items()], clipped(root))
+print([(t, str(b.cget("state"))) for t, b in window.answer_buttons.items()], room.troubles(root))
 hand.click(window.answer_buttons["Cancel"])
 print("there:", bool(root.winfo_exists()))
 window.menus["File"].invoke("Save HAL Net")

@@ -3,7 +3,8 @@ from pathlib import Path
 
 from kerf import tkstyle
 from kerf.tktools import ngcfiles, ngcgui
-from tk_hand import Hand, clipped
+import room
+from tk_hand import Hand
 
 root = tkstyle.open_display("ngcgui", "Ngcgui")
 style = tkstyle.apply(root)
@@ -20,7 +21,7 @@ def said():
     return page.status.cget("text")
 
 
-print(said(), [(e.get(), e.cget("foreground") == bad) for _, e, _ in page.rows], clipped(root))
+print(said(), [(e.get(), e.cget("foreground") == bad) for _, e, _ in page.rows], room.troubles(root))
 print("picture:", page.image and (page.image.width(), page.image.height()), bool(page.picture.winfo_ismapped()))
 hand.click(page.buttons["Create Feature"])
 print(said(), str(page.buttons["MakeFile"].cget("state")))

@@ -194,7 +194,7 @@ class Channels(ttk.Frame):
         self.name.pack(side="left", padx=style.px(8), fill="x", expand=True)
         self.buttons = []
         for n in range(1, st.CHANNELS + 1):
-            b = tk.Button(self, text=str(n), width=2, padx=style.px(2), pady=style.px(2), borderwidth=0, highlightthickness=style.px(2),
+            b = tk.Button(self, text=str(n), width=2, padx=style.px(2), pady=style.roomy(2, 6), borderwidth=0, highlightthickness=style.px(2),
                           command=lambda n=n: owner.channel_button(n))
             b.pack(side="left", padx=1)
             self.buttons.append(b)

@@ -89,7 +89,7 @@ class Window:
             buttons.pack(side="bottom", fill="x")
             self.buttons = {}
             for text, action in ((N_("Select"), self.select), (N_("Exit"), self.exit)):
-                self.buttons[text] = ttk.Button(buttons, text=_(text), command=action, padding=(px(4), px(1)))
+                self.buttons[text] = ttk.Button(buttons, text=_(text), command=action, padding=(px(4), style.roomy(1, 9)))
                 self.buttons[text].pack(side="left", expand=True, fill="x")
             self.label.pack(side="bottom", fill="x")
             self.value.pack(fill="both", expand=True)

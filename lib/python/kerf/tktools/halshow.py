@@ -14,10 +14,11 @@ from ..language import _, N_
 from ..tree import Tree
 from . import haltree, tclprefs, watch
 from .watchview import WatchView
+from .widgets import Scrolled
 
 SIZE, MINIMUM = (700, 475), (230, 240)
 LEFT_SHARE = 0.3
-STRIP = 26
+STRIP, WRAP_PX = 26, 380
 DEFAULTS = {"watchInterval": 100, "col1_width": 100, "ffmts": "", "ifmts": "", "alwaysOnTop": 0, "autoSaveWatchlist": 1, "separateParams": 0}
 START_TEXT = _("Commands may be tested here but they will NOT be saved")
 ADDING = {"pin": N_("Add pin"), "sig": N_("Add signal"), "param": N_("Add parameter")}
@@ -128,6 +129,9 @@ class Window:
                 pass
         root.update()
         self.place_frames(prefs.ratio)
+        self.widen_left()
+        self.panes.bind("<Configure>", lambda event: self.widen_left())
+        self.panes.bind("<Button-1>", lambda event: self.panes.unbind("<Configure>"), "+")
         root.protocol("WM_DELETE_WINDOW", self.exit)
         root.attributes("-topmost", bool(prefs.integer("alwaysOnTop")))
         self.load_tree()
@@ -232,6 +236,12 @@ class Window:
     def place_frames(self, ratio):
         width = self.panes.winfo_width()
         self.panes.sashpos(0, round(width * min(max(ratio, 0.02), 0.9)))
+
+    def widen_left(self):
+        """Until the user moves the border there is room for what is left of it."""
+        least = self.whole_box.winfo_reqwidth() + 2 * self.style.px(2)
+        if self.prefs.ratio >= LEFT_SHARE and self.collapsed is None and self.panes.sashpos(0) < least:
+            self.panes.sashpos(0, least)
 
     def ratio(self):
         return self.collapsed or self.panes.sashpos(0) / max(1, self.panes.winfo_width())
@@ -560,13 +570,9 @@ class Settings:
     def __init__(self, parent, window):
         self.window, style = window, window.style
         px, prefs = style.px, window.prefs
-        self.scroll = tk.Canvas(parent, highlightthickness=0, background=style.colours["face"])
-        page = ttk.Frame(self.scroll, padding=px(10))
-        self.scroll.create_window(0, 0, anchor="nw", window=page)
-        page.bind("<Configure>", lambda event: self.scroll.configure(scrollregion=self.scroll.bbox("all")))
-        for target in (self.scroll, page):
-            target.bind("<Button-4>", lambda event: self.scroll.yview_scroll(-1, "units"))
-            target.bind("<Button-5>", lambda event: self.scroll.yview_scroll(1, "units"))
+        self.scroll = Scrolled(parent, style)
+        page = self.scroll.inner
+        page.configure(padding=px(10))
         self.vars = {"watchInterval": tk.StringVar(page, window.interval), "col1_width": tk.StringVar(page, prefs.integer("col1_width", 20)),
                      "ffmts": tk.StringVar(page, window.formats.real), "ifmts": tk.StringVar(page, window.formats.integer),
                      "alwaysOnTop": tk.BooleanVar(page, prefs.integer("alwaysOnTop")),
@@ -575,7 +581,7 @@ class Settings:
         self.entries = {}
         for row, (name, label) in enumerate((("watchInterval", _("Update interval (ms)")), ("col1_width", _("Column width")), ("ffmts", _("Float")), ("ifmts", _("Integer")))):
             if name == "ffmts":
-                ttk.Label(page, text=_("Format overrides (printf style, for example %.3f and %08X):")).grid(row=2, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
+                ttk.Label(page, text=_("Format overrides (printf style, for example %.3f and %08X):"), wraplength=px(WRAP_PX)).grid(row=2, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
             ttk.Label(page, text=label).grid(row=row + (row > 1), column=0, sticky="w", pady=px(2))
             self.entries[name] = ttk.Entry(page, textvariable=self.vars[name], width=12)
             self.entries[name].grid(row=row + (row > 1), column=1, sticky="w", pady=px(2))
@@ -588,7 +594,8 @@ class Settings:
         self.button = ttk.Button(page, text=_("Apply"), command=self.apply)
         self.button.grid(row=8, column=0, sticky="w", pady=px(10))
         where = _("Settings are stored in\n%s") % prefs.path if prefs.path else _("Settings are not stored (--noprefs)")
-        ttk.Label(page, text=where, style="Faint.TLabel", justify="left").grid(row=9, column=0, columnspan=2, sticky="w")
+        ttk.Label(page, text=where, style="Faint.TLabel", justify="left", wraplength=px(WRAP_PX)).grid(row=9, column=0, columnspan=2, sticky="w")
+        self.scroll.wheel(*page.winfo_children())
 
     def value(self, name):
         return self.vars[name].get()

@@ -119,7 +119,7 @@ class Window:
         self.keys = {}
         for n, key in enumerate(KEYS):
             wide = key == "Enter"
-            self.keys[key] = ttk.Button(pad, text=_(key), width=5 if wide else 3, style="Readout.TButton", takefocus=False, command=lambda k=key: self.press(k))
+            self.keys[key] = ttk.Button(pad, text=_(key), width=-5 if wide else 3, style="Readout.TButton", takefocus=False, command=lambda k=key: self.press(k))
             self.keys[key].grid(row=n // 3, column=n % 3, sticky="nsew", padx=1, pady=1)
             pad.rowconfigure(n // 3, weight=1)
 

@@ -145,7 +145,7 @@ class Page:
                              highlightbackground=self.style.colours["line"], highlightcolor=self.style.colours["select"])
             label = ttk.Label(inner, text=parameter.label or parameter.name, wraplength=px(8) * self.o.cwidth)
             for column, widget in enumerate((number, entry, label)):
-                widget.grid(row=row, column=column, sticky="w", padx=px(3), pady=px(1))
+                widget.grid(row=row, column=column, sticky="w", padx=px(3), pady=px(1), ipady=self.style.roomy(1, 7) - 1 if widget is entry else 0)
             self.entries.wheel(number, entry, label)
             text.trace_add("write", lambda *_, t=text, e=entry: self.colour(t, e))
             entry.bindtags((self.key_tag, *entry.bindtags()))

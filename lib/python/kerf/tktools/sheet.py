@@ -40,7 +40,7 @@ class Sheet(ttk.Frame):
         self._headings()
         self._add_line()
         self.update_idletasks()
-        self.line_height = self.lines[0][1][0].winfo_reqheight()
+        self.line_height = self.inner.grid_bbox(1, 1)[3]
         self.head_height = self.heads[0].winfo_reqheight()
         self.canvas.configure(width=self.inner.winfo_reqwidth(), height=self.head_height + 12 * self.line_height)
         self.canvas.bind("<Configure>", lambda event: self._resize())
@@ -68,7 +68,7 @@ class Sheet(ttk.Frame):
             entry = tk.Entry(self.inner, textvariable=text, width=column.chars, justify="left" if column.left else "right", relief="flat",
                              borderwidth=0, highlightthickness=1, highlightcolor=self.style.colours["select"],
                              highlightbackground=self.style.colours["line"])
-            entry.grid(row=line + 1, column=place + 1, sticky="ew", padx=(self.style.px(4) if column.left else 0, 1))
+            entry.grid(row=line + 1, column=place + 1, sticky="ew", ipady=self.style.roomy(1, 8) - 1, padx=(self.style.px(4) if column.left else 0, 1))
             text.trace_add("write", lambda *_, l=line, p=place: self._typed(l, p))
             for key, right, down in (("Left", -1, 0), ("Right", 1, 0), ("Up", 0, -1), ("Down", 0, 1), ("Return", 0, 1), ("KP_Enter", 0, 1)):
                 entry.bind(f"<{key}>", lambda event, l=line, p=place, r=right, d=down: self.move(l, p, r, d))

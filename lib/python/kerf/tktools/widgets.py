@@ -43,6 +43,8 @@ class Scrolled(ttk.Frame):
 
     def _fit(self, _event):
         self.canvas.configure(scrollregion=(0, 0, self.inner.winfo_reqwidth(), self.inner.winfo_reqheight()))
+        if self.inner.winfo_reqwidth() > self.canvas.winfo_reqwidth():      # it does not scroll that way
+            self.canvas.configure(width=self.inner.winfo_reqwidth())
         if self.fill:
             self.canvas.itemconfigure(self.item, width=max(self.canvas.winfo_width(), self.inner.winfo_reqwidth()))
 
