@@ -9,7 +9,7 @@ package require BWidget
 
 namespace eval ::axis {
     variable accel_pattern {_(.)}
-    variable buttons {}
+    variable homed_extra {}
 }
 
 # -- labels with accelerators --------------------------------------------------------------
@@ -30,8 +30,10 @@ proc setup_widget_accel {w text} {
     }
 }
 
+proc ::axis::enabled {w} { return [expr {[$w cget -state] ne "disabled"}] }
+
 proc ::axis::accel {w} {
-    if {[winfo viewable $w] && [$w cget -state] ne "disabled"} { catch {$w invoke} }
+    if {[winfo viewable $w] && [enabled $w]} { catch {$w invoke} }
 }
 
 # The entry's label with its accelerator letter.
@@ -42,25 +44,27 @@ proc setup_menu_accel {m entry text} {
 
 # -- state of widgets ----------------------------------------------------------------------
 
-# state EXPRESSION WIDGET... -- enables or disables widgets; a list {menu label} is a menu entry.
+# state EXPRESSION WIDGET... -- enables or disables widgets; a list {menu label} is a menu entry. User code may have removed any.
 proc state {condition args} {
     set value [expr {[uplevel #0 [list expr $condition]] ? "normal" : "disabled"}]
     foreach w $args {
         if {[llength $w] > 1} {
             lassign $w menu label
-            $menu entryconfigure [::axis::menu_entry $menu [_ $label]] -state $value
+            set at [::axis::menu_entry $menu [_ $label]]
+            if {$at >= 0} { $menu entryconfigure $at -state $value }
         } elseif {[winfo exists $w] && [$w cget -state] ne $value} {
             $w configure -state $value
         }
     }
 }
 
+# Index of the entry with this label, or -1.
 proc ::axis::menu_entry {menu label} {
     set wanted [lindex [::axis::split_accel $label] 0]
     for {set i 0} {$i <= [$menu index end]} {incr i} {
         if {[$menu type $i] ni {separator tearoff} && [$menu entrycget $i -label] eq $wanted} { return $i }
     }
-    error "no entry $wanted in $menu"
+    return -1
 }
 
 # relief EXPRESSION WIDGET -- shows a button pressed.
@@ -150,7 +154,7 @@ proc ::axis::build_menu {} {
     add $m command "Edit _tool data..." -command edit_tooltable
     add $m command "Reload tool _data" -command reload_tool_table
     $m add separator
-    add $m command "_Ladder Editor..." -command {exec classicladder &}
+    add $m command "_Ladder Editor..." -command {::axis::tool_program classicladder}
     $m add separator
     add $m command "_Quit" -command {destroy .}
 
@@ -249,13 +253,11 @@ proc ::axis::add_looks_menu {scales} {
 
 # Starts a tool of the integrator; a missing one is told, not fatal.
 proc ::axis::tool_program {name args} {
+    set words [list $name {*}$args]
     foreach dir [list $::axis::tcl_dir/bin $::axis::tcl_dir] {
-        if {[file readable $dir/$name] && [string match *.tcl $name]} {
-            exec wish8.6 $dir/$name {*}$args &
-            return
-        }
+        if {[file readable $dir/$name] && [string match *.tcl $name]} { set words [list wish8.6 $dir/$name {*}$args] }
     }
-    if {[catch {exec $name {*}$args &} message]} { ::axis::notify_error "$name: $message" }
+    if {[catch {exec {*}$words &} message]} { ::axis::notify_error "$name: $message" }
 }
 
 # A radio or check button with a mark as large as the letters: Tk's own does not grow with the screen.
@@ -288,9 +290,11 @@ proc ::axis::build_manual {f} {
     button $f.jogf.jog.jogminus -text - -width 3 -takefocus 0
     button $f.jogf.jog.jogplus -text + -width 3 -takefocus 0
     combobox $f.jogf.jog.jogincr
+    # continuous while the button is held, an increment for a whole click
     foreach {w command} {jogminus jog_minus jogplus jog_plus} {
         set b $f.jogf.jog.$w
-        bind $b <Button-1> [subst {if {\[$b cget -state\] ne "disabled"} { $command 1 }}]
+        $b configure -command "if {!\[is_continuous\]} { $command 1 }"
+        bind $b <Button-1> "if {\[is_continuous\] && \[::axis::enabled $b\]} { $command 1 }"
         bind $b <ButtonRelease-1> {jog_stop}
         bind $b <Leave> {jog_stop}
     }
@@ -323,10 +327,11 @@ proc ::axis::build_manual {f} {
     }
     button $f.spindlef.spindleminus -text - -width 2 -takefocus 0
     button $f.spindlef.spindleplus -text + -width 2 -takefocus 0
-    bind $f.spindlef.spindleminus <Button-1> {spindle_decrease}
-    bind $f.spindlef.spindleplus <Button-1> {spindle_increase}
-    bind $f.spindlef.spindleminus <ButtonRelease-1> {spindle_constant}
-    bind $f.spindlef.spindleplus <ButtonRelease-1> {spindle_constant}
+    foreach {w command} {spindleminus spindle_decrease spindleplus spindle_increase} {
+        set b $f.spindlef.$w
+        bind $b <Button-1> "if {\[::axis::enabled $b\]} { $command; set ::axis::spindle_held 1 }"
+        bind $b <ButtonRelease-1> {if {[info exists ::axis::spindle_held]} { spindle_constant; unset ::axis::spindle_held }}
+    }
     pack $f.spindlef.spindleminus $f.spindlef.spindleplus -in $f.spindlef.row2 -side left -padx 2
     checkbutton $f.spindlef.brake -variable brake -command brake -anchor w -takefocus 0
     setup_widget_accel $f.spindlef.brake [_ "Brake"]
@@ -358,6 +363,12 @@ proc ::axis::build_manual {f} {
 proc combobox {w} {
     ttk::combobox $w -textvariable jogincrement -state readonly -width 12 -takefocus 0
     bind $w <<ComboboxSelected>> {::axis::increment_chosen; focus .}
+    bind $w <FocusIn> {after idle {::axis::give_back_focus %W}}
+}
+
+# A list that was closed without a choice does not keep the keyboard.
+proc ::axis::give_back_focus {w} {
+    if {[winfo exists $w] && [focus] eq $w && !([winfo exists $w.popdown] && [winfo ismapped $w.popdown])} { focus . }
 }
 
 proc ::axis::build_mdi {f} {
@@ -422,7 +433,7 @@ proc ::axis::build_override {w text variable max command} {
 proc ::axis::build_speed {w text value variable command} {
     frame $w
     label $w.l0 -text $text -anchor w -width 17
-    scale $w.s -from 0 -to 1 -resolution 0.005 -orient horizontal -showvalue 0 -variable $variable -command $command -takefocus 0
+    scale $w.s -from 0.06 -to 1 -resolution 0.005 -orient horizontal -showvalue 0 -variable $variable -command $command -takefocus 0
     label $w.l -textvariable $value -width 6 -anchor e
     label $w.l1 -width 7 -anchor w
     pack $w.l0 -side left
@@ -584,7 +595,7 @@ proc update_state {args} {
 proc ::axis::joint_states {ready} {
     set f .pane.top.tabs.fmanual.joints
     for {set j 0} {$j < $::MAX_JOINTS} {incr j} {
-        state "$ready && !\[info exists ::axis::extra_homed($j)\]" $f.joint$j
+        state "$ready && $j ni \$::axis::homed_extra" $f.joint$j
     }
 }
 

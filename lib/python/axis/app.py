@@ -2,8 +2,10 @@
 """The AXIS screen: start-up in the documented order, modes, offsets, overrides."""
 
 import getopt
+import math
 import os
 import signal
+import subprocess
 import sys
 import threading
 import tkinter as tk
@@ -18,8 +20,8 @@ from kerf.tree import Tree
 from . import dialogs, program, remote
 from .dro import SYSTEMS
 from .estimate import Estimate
-from .follow import FollowPart
-from .jog import position, speed
+from .follow import OPTIONS, FollowPart
+from .jog import SLIDER_LEAST, SLIDER_STEP, position, speed
 from .opening import OpeningPart
 from .panels import PanelsPart
 from .pins import PinsPart
@@ -61,9 +63,10 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
         self.loaded_file = self.shown_file = None
         self.is_filtered = self.loading = self.cancel_loading = False
-        self.disk_state = None
+        self.disk_state, self.changed_on_disk = None, False
         self.joints_shown = None
         self.last_increment = None
+        self.seen_maxvel = None
         self.maxvel_quiet_until = 0.0
         self.stale_since = None      # when offsets changed that the preview does not know
         self.select_moved = self.settings.flag("DISPLAY", "SELECT_MOVED_AXIS")
@@ -79,6 +82,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.timed = False       # a program ran at the last look
         self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
         self.user = {}
+        self.live_faults = set()     # of user_live_update, that were told
         self.last_state = None
         self.build()
 
@@ -95,6 +99,13 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
             clock.sleep(wait)
             wait *= 2
         raise SettingsError(NO_STATUS)
+
+    def run_program(self, words):
+        """Starts an editor or the like; one that is not there is told."""
+        try:
+            subprocess.Popen(words)
+        except OSError as e:
+            self.notifications.add("error", f"{words[0]}: {e.strerror}")
 
     # -- guards ----------------------------------------------------------------------------
 
@@ -204,8 +215,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         for w in ("jogspeed", "maxvel"):
             tcl.call(f".pane.top.{w}.l1", "configure", "-text", unit)
         tcl.call(".pane.top.ajogspeed.l1", "configure", "-text", self.translate("deg/min"))
-        for kind in ("jog", "maxvel"):
-            self.slider(kind, None, send=False)
+        self.slider("jog", None)
+        self.seen_maxvel = None      # is shown anew
 
     # -- sliders ---------------------------------------------------------------------------
 
@@ -217,18 +228,26 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
             "ajog": ("ajog_slider_val", v.jog_aspeed, s.max_angular, s.default_angular),
             "maxvel": ("maxvel_slider_val", v.maxvel_speed, s.max_velocity, s.max_velocity)}[kind]
         x = float(getattr(v, name).get() if value is None else value)
-        if 0 < x < 0.06:
-            x = 0.06
+        if 0 < x < SLIDER_LEAST:
+            x = SLIDER_LEAST
         # the speed of the INI file is that, not the one of the nearest position
-        units = 60 * start if x == position(60 * start, top) else speed(x, top)
-        if x > 0 and kind != "maxvel":
-            units = min(60 * top, max(units, s.min_speed(kind == "ajog")))
+        exact = x > 1 - SLIDER_STEP / 2 or abs(x - position(60 * start, top)) < 0.51 * SLIDER_STEP
+        units = 60 * top if x > 1 - SLIDER_STEP / 2 else 60 * start if exact else speed(x, top)
+        step = abs(speed(x, top) - speed(x - SLIDER_STEP, top))
+        least, most = s.min_speed(kind == "ajog") if x > 0 and kind != "maxvel" else 0.0, 60 * top
         if kind != "ajog":
-            units = self.to_display(units)
-        units = float("%.4g" % units)
-        shown.set(int(units) if units.is_integer() else units)
+            units, step, least, most = map(self.to_display, (units, step, least, most))
+        if not exact and step > 0:       # digits that tell two positions apart
+            units = round(units, -math.floor(math.log10(step))) or units
+        units = min(most, max(units, least))
+        self.show_speed(shown, units)
         if kind == "maxvel" and send:
             self.set_maxvel(self.to_machine(units) / 60)
+
+    @staticmethod
+    def show_speed(variable, units):
+        units = float("%.4g" % units)
+        variable.set(int(units) if units.is_integer() else units)
 
     def set_maxvel(self, units_per_s):
         self.maxvel_quiet_until = clock.now() + MAXVEL_QUIET_S
@@ -236,7 +255,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
 
     def step_slider(self, name, direction):
         variable = getattr(self.vars, name)
-        variable.set(min(1.0, max(0.0, round(variable.get() + 0.02 * direction, 3))))
+        variable.set(min(1.0, max(SLIDER_LEAST, round(variable.get() + SLIDER_STEP * direction, 3))))
         self.slider(name.split("_")[0], variable.get())
 
     def set_override(self, name, percent):
@@ -244,6 +263,15 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.own_values[name] = (percent, clock.now() + 0.5)
         self.vars.put(name, percent)
         send[name](percent / 100.0)
+
+    def set_option(self, name, on):
+        """Block delete or the optional stop, for the machine and for the next time."""
+        self.prefs.putpref(name, bool(on))
+        self.send_option(name, on)
+
+    def send_option(self, name, on):
+        self.own_values[name] = (on, clock.now() + 0.5)
+        {"block_delete": self.command.set_block_delete, "optional_stop": self.command.set_optional_stop}[name](int(on))
 
     def digit(self, number, is_grave):
         if self.joints_shown:
@@ -383,12 +411,15 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         before, number = self.stat.task_mode, self.stat.tool_in_spindle
         metric = bool(self.vars.metric.get())
         actual = s.find(f"AXIS_{letter}", "TOUCHOFF_ACTUAL")
+        if self.stat.interp_state == linuxcnc.INTERP_IDLE:
+            self.command.task_plan_synch()           # writes the parameter file
+            self.command.wait_complete()
+        check = Checker(s, self.loader.own_parameters("touchoff.var"))
         if value is None:
             title = _("Tool %d TouchOff") % number if tool else _("Touch Off (system)") if actual is None \
                 else _("Touch Off (system ACTUAL)")
-            var = os.path.join(self.loader.folder, "touchoff.var")
             dialog = dialogs.Touchoff(self.root, title, _("Enter %s coordinate relative to workpiece:") % letter, 0.0,
-                                      unit_text(letter, s, self.stat, metric), Checker(s, var),
+                                      unit_text(letter, s, self.stat, metric), check,
                                       None if tool else self.vars.touch_off_system.get(), self.touch_off_note(letter, tool), _)
             answer = dialog.wait(dialog.entry)
             if answer is None:
@@ -408,7 +439,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         else:
             if actual is not None:
                 here = self.stat.actual_position[at]
-                value = str(float(value) - here if actual.upper() == "MINUS" else float(value) + here)
+                number = check(value)[0]
+                value = str(number - here if actual.upper() == "MINUS" else number + here)
             system = int(self.vars.touch_off_system.get().split()[0][1:]) or self.active_system()
             place, old = SYSTEMS[system], None
             if system == self.active_system():
@@ -508,8 +540,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     def start(self, first_file):
         """Everything after the widgets, in the documented order."""
         remote.serve(self.root, self, self.running)
-        self.command.set_block_delete(self.vars.block_delete.get())
-        self.command.set_optional_stop(self.vars.optional_stop.get())
+        for name in OPTIONS:
+            self.send_option(name, getattr(self.vars, name).get())
         self.make_pins()
         self.make_panel()
         self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)

@@ -36,6 +36,7 @@ class CodeView:
         self.base = 0                    # lines before the window
         self.count = 0                   # lines in it
         self.tags = {}                   # tag -> line
+        self.ignored = 0                 # so many lines at the beginning are not run
         self.moving = False
         text.configure(yscrollcommand=self.scrolled)
         scrollbar.configure(command=self.yview)
@@ -49,6 +50,7 @@ class CodeView:
         self.path = path
         self.starts, self.size = index or line_starts(path)
         self.tags.clear()
+        self.ignored = 0
         self.fill(0)
         self.text.yview_moveto(0)
 
@@ -86,6 +88,7 @@ class CodeView:
         t.configure(state="disabled")
         for tag, line in self.tags.items():
             self.show_tag(tag, line)
+        self.show_ignored()
 
     def row(self, line):
         """The line's row in the widget, or None."""
@@ -113,6 +116,17 @@ class CodeView:
         if line > 0:
             self.tags[tag] = line
             self.show_tag(tag, line)
+
+    def ignore_before(self, line):
+        """Lines before this one are grey: the start skipped them."""
+        self.ignored = max(0, line - 1)
+        self.show_ignored()
+
+    def show_ignored(self):
+        self.text.tag_remove("ignored", "1.0", "end")
+        rows = min(self.ignored - self.base, self.count)
+        if rows > 0:
+            self.text.tag_add("ignored", "1.0", f"{rows}.end")
 
     def show_tag(self, tag, line):
         row = self.row(line)

@@ -3,7 +3,6 @@
 
 import os
 import shutil
-import subprocess
 import tkinter as tk
 from tkinter import filedialog
 
@@ -30,6 +29,15 @@ def make(app):
             hist_list.insert("end", line)
         hist_list.insert("end", "")
         hist_list.see("end")
+
+    def save_copy(path, target):
+        """True when it is written; else the operator is told."""
+        try:
+            shutil.copyfile(path, target)
+            return True
+        except OSError as e:
+            dialogs.ask(root, _("Error saving file"), str(e), "error", 0, _("OK"))
+            return False
 
     class TclCommands:
         def __init__(self, master):
@@ -102,11 +110,8 @@ def make(app):
                                                   initialdir=app.open_directory, defaultextension=".ngc")
             if not target:
                 return
-            try:
-                shutil.copyfile(app.shown_file, target)
+            if save_copy(app.shown_file, target):
                 app.add_recent(target)
-            except OSError as e:
-                dialogs.ask(root, _("Error saving file"), str(e), "error", 0, _("OK"))
 
         def edit_program(*event):
             path = app.loaded_file
@@ -123,9 +128,10 @@ def make(app):
                     copy = filedialog.asksaveasfilename(parent=root, initialfile="my_" + os.path.basename(path))
                     if not copy:
                         return
-                    shutil.copyfile(path, copy)
+                    if not save_copy(path, copy):
+                        return
                     path = copy
-            subprocess.Popen([*editor.split(), path])
+            app.run_program([*editor.split(), path])
 
         def edit_tooltable(*event):
             editor = app.settings.find("DISPLAY", "TOOL_EDITOR")
@@ -136,10 +142,7 @@ def make(app):
             else:
                 words = (editor or "tooledit").split() + ([table] if table else [])
             if words:
-                try:
-                    subprocess.Popen(words)
-                except OSError as e:
-                    app.notifications.add("error", f"{words[0]}: {e.strerror}")
+                app.run_program(words)
 
         def reload_tool_table(*event):
             c.load_tool_table()
@@ -217,17 +220,16 @@ def make(app):
                 c.auto(linuxcnc.AUTO_FORWARD)
 
         def toggle_optional_stop(*event):
-            app.prefs.putpref("optional_stop", v.optional_stop.get())
-            c.set_optional_stop(v.optional_stop.get())
+            app.set_option("optional_stop", v.optional_stop.get())
 
         def toggle_block_delete(*event):
-            app.prefs.putpref("block_delete", v.block_delete.get())
-            c.set_block_delete(v.block_delete.get())
+            app.set_option("block_delete", v.block_delete.get())
             app.ensure_mode(linuxcnc.MODE_MANUAL)
             app.reload_file(False)
 
         def set_first_line(line):
             app.set_highlight_line(int(line))
+            app.code.ignore_before(int(line))
 
         def copy_line(*event):
             line = app.line_text(v.highlight_line.get())
@@ -522,7 +524,7 @@ def make(app):
             return float(value) * app.settings.units_per_mm * MM_PER_INCH
 
         def launch_website(*event):
-            subprocess.Popen(["xdg-open", "https://linuxcnc.org/docs"])
+            app.run_program(["xdg-open", "https://linuxcnc.org/docs"])
 
     def toggle(name):
         def function(*event):

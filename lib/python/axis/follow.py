@@ -3,7 +3,6 @@
 
 import os
 import sys
-import traceback
 from types import SimpleNamespace
 
 import linuxcnc
@@ -12,13 +11,14 @@ from kerf.language import N_
 
 from .dro import active_codes, tool_text
 from .estimate import Rates, clock_text
-from .jog import position
+from .jog import SLIDER_LEAST, position
 from .settings import LETTERS
 
 POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("Position: Machine Commanded"),
              (True, False): N_("Position: Relative Actual"), (True, True): N_("Position: Relative Commanded")}     # relative, commanded
 STATES = {linuxcnc.STATE_ESTOP: N_("ESTOP"), linuxcnc.STATE_ON: N_("ON"), linuxcnc.STATE_OFF: N_("OFF")}
 ERROR_POLL_MS = 200
+OPTIONS = ("block_delete", "optional_stop")
 STALE_S = 0.3            # offsets must rest so long before the preview is read anew
 
 
@@ -55,8 +55,10 @@ class FollowPart:
         if live:
             try:
                 live()
-            except Exception:
-                traceback.print_exc()
+            except Exception as e:
+                if repr(e) not in self.live_faults:      # told once, not in each cycle
+                    self.live_faults.add(repr(e))
+                    self.failed(e)
         return True
 
     def follow_status(self):
@@ -96,17 +98,27 @@ class FollowPart:
         self.show_readout()
 
     def follow_overrides(self):
-        now = clock.now()
-        for name, value in (("feedrate", self.stat.feedrate), ("rapidrate", self.stat.rapidrate),
-                            ("spindlerate", self.stat.spindle[0]["override"])):
+        now, s, v = clock.now(), self.stat, self.vars
+
+        def follows(name):               # an own change is on its way for a moment
             own = self.own_values.get(name)
-            if own is None or now > own[1]:
-                self.vars.put(name, round(100 * value))
-        if now > self.maxvel_quiet_until:
-            x = position(60 * self.stat.max_velocity, self.settings.max_velocity)
-            if abs(x - self.vars.maxvel_slider_val.get()) > 0.004:
-                self.vars.maxvel_slider_val.set(x)
-                self.slider("maxvel", x, send=False)
+            return own is None or now > own[1]
+        for name, value in (("feedrate", s.feedrate), ("rapidrate", s.rapidrate), ("spindlerate", s.spindle[0]["override"])):
+            if follows(name):
+                v.put(name, round(100 * value))
+        for name in OPTIONS:             # halui and panels have buttons for them, too
+            value = int(getattr(s, name))
+            if follows(name) and getattr(v, name).get() != value:
+                getattr(v, name).set(value)
+                if name == "block_delete" and self.loaded_file:
+                    self.stale_since = now
+        if now > self.maxvel_quiet_until and s.max_velocity != self.seen_maxvel:
+            self.seen_maxvel = s.max_velocity
+            top = self.settings.max_velocity
+            shown = v.maxvel_speed.get()
+            self.show_speed(v.maxvel_speed, self.to_display(60 * min(top, s.max_velocity)))
+            if v.maxvel_speed.get() != shown:
+                v.maxvel_slider_val.set(max(SLIDER_LEAST, position(60 * s.max_velocity, top)))
 
     def follow_modes(self):
         s = self.stat
@@ -121,6 +133,12 @@ class FollowPart:
             self.command.teleop_enable(1)
         if self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON or s.task_mode != linuxcnc.MODE_MANUAL):
             self.jogger.stop_all()
+        extra = range(self.settings.joints - s.num_extrajoints, self.settings.joints)
+        homed = tuple(j for j in extra if s.homed[j])
+        if homed != self.widget_signs.get("homed_extra"):
+            self.widget_signs["homed_extra"] = homed
+            self.root.tk.setvar("::axis::homed_extra", homed)
+            self.state_changed()
         state = (s.task_state == linuxcnc.STATE_ON, s.interp_state == linuxcnc.INTERP_IDLE)
         if state == (True, True) and self.last_state not in (None, state) and s.task_mode == linuxcnc.MODE_AUTO:
             self.root.tk.call("set_mode_from_tab")

@@ -15,6 +15,9 @@ from kerf import clock
 from .settings import LETTERS, parse_increment
 
 
+SLIDER_LEAST, SLIDER_STEP = 0.06, 0.02         # of a speed slider, 0..1
+
+
 def speed(position, top):
     """Units a minute of a slider position 0..1; top: units a second at 1."""
     return 0.0 if position <= 0 else 60 * top * math.exp(1 - 1 / position)

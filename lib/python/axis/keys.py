@@ -58,7 +58,7 @@ class Keys:
         """The function for exactly these modifiers, and in entries only for keys that are none of theirs."""
         wanted = (SHIFT if "Shift" in sequence else 0) | (CONTROL if "Control" in sequence else 0)
         ignored = SHIFT if sequence[5:-1] in ("exclam", "at", "numbersign", "dollar") else 0
-        entries_too = any(key in sequence for key in ("F3", "F5", "Tab", "space"))
+        entries_too = any(key in sequence for key in ("F3", "F5", "Tab", "space", "Return", "Enter"))
 
         def called(event):
             if (event.state & MODIFIERS & ~ignored) != wanted or (self.in_entry(event) and not entries_too):

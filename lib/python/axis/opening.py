@@ -78,7 +78,7 @@ class OpeningPart:
     def load_shown(self):
         """Task, text and preview take the same program; a change on disk meanwhile is told."""
         c = self.command
-        self.disk_state = self.state_on_disk()
+        self.disk_state, self.changed_on_disk = self.state_on_disk(), False
         self.user["loaded_file"] = self.loaded_file
         if self.manual_ok():
             self.ensure_mode(linuxcnc.MODE_MANUAL)
@@ -162,7 +162,7 @@ class OpeningPart:
             return
         now = self.state_on_disk()
         if now != self.disk_state:
-            self.disk_state = now
+            self.disk_state, self.changed_on_disk = now, True
             what = self.translate("%s was changed on disk. The program as it was opened stays loaded; reload to take the new one.") if now else \
                 self.translate("%s is gone from the disk. The program as it was opened stays loaded.")
             self.notifications.add("info", what % os.path.basename(self.loaded_file))
@@ -173,6 +173,8 @@ class OpeningPart:
             return
         line = self.vars.highlight_line.get()
         source = self.loaded_file
+        if not refilter and not self.is_filtered and (self.changed_on_disk or self.state_on_disk() != self.disk_state):
+            return                   # the new text comes with a reload that was asked for; this one can not be run any more
         if refilter or not self.is_filtered:
             if self.is_filtered:
                 self.open_file_guts(source, addrecent=False)
@@ -280,6 +282,7 @@ class OpeningPart:
             self.start_at(line)
         elif self.ensure_mode(linuxcnc.MODE_AUTO):
             self.set_highlight_line(-1)
+            self.code.ignore_before(0)
             self.command.auto(linuxcnc.AUTO_RUN, 0)
 
     def start_at(self, line):
@@ -315,10 +318,12 @@ class OpeningPart:
             return
         if answer == 0 and s.restore_line == restored:
             self.set_highlight_line(-1)
+            self.code.ignore_before(restored)
             c.restore_confirm(restored)
             return
         c.abort()                    # forgets what was shown
         c.wait_complete()
         if answer == 1 and self.ensure_mode(linuxcnc.MODE_AUTO):
             self.set_highlight_line(-1)
+            self.code.ignore_before(line)
             c.auto(linuxcnc.AUTO_RUN, line)

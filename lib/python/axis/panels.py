@@ -107,7 +107,9 @@ class PanelsPart:
             frame = self.add_tab(f"user_{i}", name)
             words = line.split()
             if words[:1] == ["pyvcp"]:
-                if len(words) == 2:
+                if self.comp is None:
+                    print(f"axis: EMBED_TAB_COMMAND = {line}: no panels with AXIS_NO_HAL")
+                elif len(words) == 2:
                     inner = self.wrap(str(frame))
                     self.tab_components.append(self.pyvcp(inner, words[1], name.lower().replace(" ", "_")))
                 else:

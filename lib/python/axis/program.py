@@ -122,13 +122,18 @@ class Loader:
         codes += [f"M{code}" for code in stat.mcodes[2:] if code != -1]
         return codes
 
+    def own_parameters(self, name):
+        """Path of a private copy of the machine's parameter file."""
+        copy = os.path.join(self.folder, name)
+        own = os.path.join(os.path.dirname(os.path.abspath(self.s.ini_path)), self.s.find("RS274NGC", "PARAMETER_FILE"))
+        if os.path.exists(own):
+            shutil.copyfile(own, copy)
+        return copy
+
     def preview(self, path, stat, block_delete=False, progress=lambda line: False):
         """A function that reads the file, in any thread, and returns a gcode.Program; progress(line) true stops the reading."""
         import gcode
-        var = os.path.join(self.folder, "preview.var")
-        own = os.path.join(os.path.dirname(os.path.abspath(self.s.ini_path)), self.s.find("RS274NGC", "PARAMETER_FILE"))
-        if os.path.exists(own):
-            shutil.copyfile(own, var)
+        var = self.own_parameters("preview.var")
         tools = [tuple(t)[:14] for t in stat.tool_table]
         division = int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64))
         return functools.partial(gcode.load, path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,

@@ -96,13 +96,13 @@ class UserPart:
 
     def prompt_float(self, title, text, default, unit):
         """(value, None) or (None, None) when cancelled."""
-        dialog = dialogs.Touchoff(self.root, title, text, default, unit, Checker(self.settings, os.path.join(self.loader.folder, "prompt.var")))
+        dialog = dialogs.Touchoff(self.root, title, text, default, unit, Checker(self.settings, self.loader.own_parameters("prompt.var")))
         answer = dialog.wait(dialog.entry)
         return (float(dialog.check(answer[0])[0]), None) if answer else (None, None)
 
     def prompt_touchoff(self, title, text, default, tool_only=False, system=None):
         """(text as typed, system) or (None, None) when cancelled."""
-        checker = Checker(self.settings, os.path.join(self.loader.folder, "prompt.var"))
+        checker = Checker(self.settings, self.loader.own_parameters("prompt.var"))
         dialog = dialogs.Touchoff(self.root, title, text, default, "", checker, None if tool_only else system or self.vars.touch_off_system.get(),
                                   translate=self.translate)
         return dialog.wait(dialog.entry) or (None, None)

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import linuxcnc
 import operator_lib as lib
+from axis.follow import OPTIONS
 from axis import commands, dialogs
 
 SHIFT, CONTROL, ALT, NUMLOCK = 1, 4, 8, 16
@@ -117,7 +118,7 @@ def script(op):
 def menus(op, out):
     """Each entry of each menu, chosen on a homed machine that is on and idle."""
     app, tcl = op.app, op.root.tk
-    commands.subprocess = SimpleNamespace(Popen=lambda words, **more: told.append("starts " + " ".join(os.path.basename(w) for w in words)))
+    app.run_program = lambda words: told.append("starts " + " ".join(os.path.basename(w) for w in words))
     tcl.createcommand("::axis::tool_program", lambda *words: told.append("starts " + " ".join(os.path.basename(w) for w in words)))
     app.preview.clear_plot = lambda: told.append("clears the plot")
     enter(op, "spindle")
@@ -145,6 +146,8 @@ def menus(op, out):
             for w in (".about", ".keys"):
                 tcl.call("wm", "withdraw", w)
             for n in CHOICES:
+                if n in OPTIONS and getattr(app.vars, n).get() != options[n]:
+                    app.send_option(n, options[n])       # the screen follows the machine in these
                 getattr(app.vars, n).set(options[n])
             again(op, "spindle", base)
 

@@ -2,7 +2,6 @@
 import os
 import random
 import sys
-import types
 import traceback
 from tkinter import filedialog
 
@@ -51,7 +50,7 @@ def script(op):
     dialogs.Touchoff.wait = touchoff
     filedialog.askopenfilename = lambda **more: rng.choice(("", sys.argv[-1], "/nowhere/at/all.ngc"))
     filedialog.asksaveasfilename = lambda **more: rng.choice(("", os.path.abspath("saved.ngc"), "/nowhere/saved.ngc"))
-    commands.subprocess = types.SimpleNamespace(Popen=lambda *args, **more: None) # editors and browsers
+    app.run_program = lambda words: None         # editors and browsers
     root.tk.eval("proc ::axis::tool_program {args} {}; rename exec ::real_exec; proc exec {args} {}")
     held, log = {}, []
     menus = menu_entries(root)

@@ -5,5 +5,6 @@
 cp "$TEST_DIR/part.txt" part.ngc
 screen_test mill random_operator.py "$PWD/part.ngc"
 cat machine/transcript
+grep -q 'faults: 0' machine/transcript || cat screen.log screen.err >&2
 grep -i -A12 traceback screen.err
 rm -rf machine home part.ngc screen.log screen.err
