@@ -49,6 +49,7 @@ SAFE_STOP_S = 2.0       # for motion to be ended after task has died
 SESSION = "LINUXCNC_SESSION"
 DISPLAY_PART = "_DISPLAY"     # of the variable that marks the display and its children
 HOST_KEYS = (0x48414C32, 0x90280A48, 0x48484C34)     # HAL, RTAPI, UUID
+TOOL_KEY = 101
 PR_SET_PDEATHSIG = 1
 
 
@@ -132,6 +133,7 @@ def session_processes(session, part=""):
     part: only the display and what it started."""
     wanted = f"{SESSION}{part}={session}".encode()
     me, parent = os.getpid(), os.getppid()
+    hosts = set() if part else instance.users_of_memory()
     for pid in sorted((int(e) for e in os.listdir("/proc") if e.isdigit()), key=lambda p: (p < me, p)):
         if pid in (me, parent):
             continue
@@ -139,6 +141,9 @@ def session_processes(session, part=""):
             with open(f"/proc/{pid}/environ", "rb") as f:
                 if wanted not in f.read().split(b"\0"):
                     continue
+        except PermissionError:         # of a setuid program
+            if pid not in hosts or not comm_of(pid).startswith("rtapi_app"):
+                continue
         except OSError:
             continue
         if lives(pid):
@@ -630,7 +635,7 @@ class Session:
 
     def remove_segments(self):
         """Removes the shared memory of the NML buffers and tool data, and of a host that was killed."""
-        keys = {101, 0x64, *HOST_KEYS}
+        keys = {TOOL_KEY, 0x64, *HOST_KEYS}
         try:
             with open(self.env.get("NMLFILE", str(self.tree.nml))) as f:
                 for line in f:
@@ -640,13 +645,9 @@ class Session:
         except OSError:
             pass
         wanted = {instance.key(k) for k in keys}
-        libc = ctypes.CDLL(None)
-        with open("/proc/sysvipc/shm") as f:
-            next(f)
-            for line in f:
-                word = line.split()
-                if int(word[0]) & 0xFFFFFFFF in wanted:
-                    libc.shmctl(int(word[1]), 0, None)      # 0 = IPC_RMID
+        for key, segment in instance.segments().items():
+            if key in wanted:
+                instance.remove_segment(segment)
 
 
 class Logs:
