@@ -13,9 +13,9 @@ made = []
 start = ngcgui_tabs.Tabs.__init__
 
 
-def keep(self, app):
+def keep(self, app, subfiles):
     made.append(self)
-    start(self, app)
+    start(self, app, subfiles)
 
 
 ngcgui_tabs.Tabs.__init__ = keep

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """ngcgui in tabs of AXIS: [DISPLAY]TKPKG = Ngcgui 1.0, one tab for each [DISPLAY]NGCGUI_SUBFILE.
 
-The Tcl package Ngcgui (tcl/pkgIndex.tcl) calls ::ngcgui::embed, which offer() has made.
+The Tcl packages Ngcgui and Ngcguittt (tcl/pkgIndex.tcl) call ::ngcgui::embed and ::ngcgui::embed_text, which offer() has made.
 """
 
 import tempfile
@@ -12,32 +12,34 @@ from .. import tkstyle
 from ..language import _, N_
 from .ngcgui import DEFAULT_OUT, Page, options, take_ini
 from .ngcfiles import find_file
+from . import ngcgui_text
 
-COMMAND = "::ngcgui::embed"
+COMMAND, TEXT_COMMAND = "::ngcgui::embed", "::ngcgui::embed_text"
 CUSTOM = _("Custom")
 
 
 class Tabs:
-    """Pages of one AXIS; app: its App."""
+    """Pages of one AXIS; app: its App; subfiles: of the first pages, "" is Custom."""
 
-    def __init__(self, app):
+    def __init__(self, app, subfiles):
         self.app, self.pages, self.count = app, [], 0
         self.folder = tempfile.TemporaryDirectory(prefix="ngcgui-")     # of the programs; gone with AXIS
         root = app.root
         self.style = getattr(app, "style", None) or tkstyle.Style(tkstyle.DARK if tkstyle.wants_dark() else tkstyle.LIGHT, tkstyle.wants_dark(),
                                                                    tkstyle.screen_scale(root))
         self.words = (self.find("DISPLAY", "NGCGUI_OPTIONS") or "").split()
-        for name in app.ini.findall("DISPLAY", "NGCGUI_SUBFILE") or [""]:
+        for name in subfiles:
             self.add(name.strip('"'))
 
     def find(self, section, name):
         return self.app.ini.find(section, name)
 
-    def add(self, subfile):
-        """One more tab."""
+    def add(self, subfile, preamble=None):
+        """One more tab; preamble: in place of [DISPLAY]NGCGUI_PREAMBLE."""
         o = options([])
         o.autosend = "noauto" not in self.words
         take_ini(o, lambda s, n: None if n == "NGCGUI_SUBFILE" else self.find(s, n))
+        o.preamble = preamble or o.preamble
         base = Path(self.app.settings.ini_path).resolve().parent
         o.subfile, o.preamble, o.postamble = (find_file(n, self.find, base) for n in (subfile, o.preamble, o.postamble))
         o.output = str(Path(self.folder.name) / DEFAULT_OUT)
@@ -116,5 +118,15 @@ class EmbeddedPage(Page):
 
 
 def offer(app):
-    """Makes the command that the Tcl package calls."""
-    app.root.tk.createcommand(COMMAND, lambda *_: Tabs(app) and "")
+    """Makes the commands that the Tcl packages call."""
+    made = []
+
+    def forms(*_words):
+        made.append(Tabs(app, app.ini.findall("DISPLAY", "NGCGUI_SUBFILE") or [""]))
+        return ""
+
+    def text(*_words):
+        app.text_page = ngcgui_text.add(made[-1] if made else Tabs(app, []))
+        return ""
+    app.root.tk.createcommand(COMMAND, forms)
+    app.root.tk.createcommand(TEXT_COMMAND, text)
