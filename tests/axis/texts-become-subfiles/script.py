@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import operator_lib
-from tk_hand import clipped
+import room
 
 
 def script(op):
@@ -14,7 +14,7 @@ def script(op):
     print([n for n in names if n.startswith("ngcgui")], op.messages(), page.status.cget("text"), file=out)
     app.root.tk.call(".pane.top.right", "raise", "ngcguittt")
     op.wait(0.2)
-    print("cut off:", clipped(page.frame), file=out)
+    print("cut off:", [t for t in room.troubles(op.root) if str(page.frame) in t], file=out)
 
     def make(**values):
         for key, value in {"name": "", "scale": "1", "more": ""}.items():
