@@ -293,14 +293,15 @@ LEGACY_PIN(u64, HAL_U64)
 LEGACY_PIN(s64, HAL_S64)
 LEGACY_PIN(port, HAL_PORT)
 
-#define TYPED_PIN(T, TYPE, REF, VALUE, FIELD, CAST)                                                        \
-    int hal_pin_new_##T(int comp_id, hal_pdir_t dir, REF *ref, VALUE def, const char *fmt, ...)            \
-    {                                                                                                      \
-        va_list ap;                                                                                        \
-        va_start(ap, fmt);                                                                                 \
-        int result = pin_newfv(TYPE, dir, (void **)(uintptr_t)ref, comp_id, (hal_data_u){.FIELD = (CAST)def}, fmt, ap); \
-        va_end(ap);                                                                                        \
-        return result;                                                                                     \
+#define TYPED_PIN(T, TYPE, REF, VALUE, FIELD, CAST)                                                \
+    int hal_pin_new_##T(int comp_id, hal_pdir_t dir, REF *ref, VALUE def, const char *fmt, ...)    \
+    {                                                                                              \
+        va_list ap;                                                                                \
+        va_start(ap, fmt);                                                                         \
+        int result = pin_newfv(TYPE, dir, (void **)(uintptr_t)ref, comp_id,                        \
+                               (hal_data_u){.FIELD = (CAST)def}, fmt, ap);                         \
+        va_end(ap);                                                                                \
+        return result;                                                                             \
     }
 TYPED_PIN(bool, HAL_BIT, hal_bool_t, rtapi_bool, lu, bool)
 TYPED_PIN(si32, HAL_S32, hal_sint_t, rtapi_s32, ls, rtapi_s64)

@@ -18,7 +18,9 @@
  * memory is checked: a stray value must not lead outside of it. */
 static struct hal_port_shm *queue(const hal_port_t *port, const char *who, const char *what)
 {
-    hal_off off = port ? (hal_off)__atomic_load_n((const hal_cell_u32_ *)(const volatile void *)port, __ATOMIC_ACQUIRE) : 0;
+    hal_off off = port ? (hal_off)__atomic_load_n(
+                             (const hal_cell_u32_ *)(const volatile void *)port, __ATOMIC_ACQUIRE)
+                       : 0;
     if (hal_data && off && off < HAL_SIZE - sizeof(struct hal_port_shm)) {
         struct hal_port_shm *q = halp_ptr(off);
         if (q->size > 0 && q->size <= HAL_PORT_SIZE_MAX) {

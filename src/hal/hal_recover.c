@@ -237,7 +237,8 @@ static void reap_comp(struct hal_comp *c)
     if (c->type != HAL_COMP_TYPE_USER || !halp_process_gone(&owner)) {
         return;
     }
-    halp_err("HAL: ERROR: component '%s' was left by process %d, which ended without hal_exit; removed with %d pins and "
+    halp_err("HAL: ERROR: component '%s' was left by process %d, which ended without hal_exit; "
+             "removed with %d pins and "
              "%d parameters\n",
              c->o.name, c->pid, count_owned_pins(c), count_owned_params(c));
     halp_change();
@@ -268,7 +269,8 @@ static void reap_host(void)
     atomic_store(&hal_data->threads_running, 0);
     hal_data->realtime_type = REALTIME_TYPE_UNINITIALIZED;
     hal_data->host.pid = 0;
-    halp_err("HAL: ERROR: the realtime host (process %d) ended without unloading; removed %d threads and %d components\n",
+    halp_err("HAL: ERROR: the realtime host (process %d) ended without unloading; removed %d "
+             "threads and %d components\n",
              host.pid, threads, comps);
 }
 

@@ -127,7 +127,9 @@ static bool process_stat(int pid, char *state, uint64_t *start)
     *state = p[2];
     unsigned long long value;
     /* Fields 3 (state) to 22 (start time). */
-    if (sscanf(p + 2, "%*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %*u %*u %*d %*d %*d %*d %*d %*d %llu", &value) != 1) {
+    if (sscanf(p + 2,
+               "%*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %*u %*u %*d %*d %*d %*d %*d %*d %llu",
+               &value) != 1) {
         return false;
     }
     *start = value;

@@ -234,7 +234,9 @@ unsigned hal_stream_maxdepth(hal_stream_t *stream)
 
 int hal_stream_num_underruns(hal_stream_t *stream)
 {
-    return invalid(stream, __func__) ? -EINVAL : (int)atomic_load_explicit(&stream->fifo->underruns, memory_order_relaxed);
+    return invalid(stream, __func__)
+               ? -EINVAL
+               : (int)atomic_load_explicit(&stream->fifo->underruns, memory_order_relaxed);
 }
 
 int hal_stream_num_overruns(hal_stream_t *stream)

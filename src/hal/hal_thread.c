@@ -593,7 +593,8 @@ static int plan(unsigned long period_nsec, int64_t *period, int *priority)
     }
     int64_t base = hal_data->base_period;
     if ((int64_t)period_nsec < base) {
-        halp_err("HAL_LIB: ERROR: new thread period %ld is less than clock period %ld\n", (long)period_nsec, (long)base);
+        halp_err("HAL_LIB: ERROR: new thread period %ld is less than clock period %ld\n",
+                 (long)period_nsec, (long)base);
         return -EINVAL;
     }
     *period = ((int64_t)period_nsec + base / 2) / base * base;

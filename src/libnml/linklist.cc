@@ -41,8 +41,12 @@ void *LinkedList::go_to(Place place) {
 void *LinkedList::get_head() { return go_to(nodes_.begin()); }
 void *LinkedList::get_tail() { return nodes_.empty() ? nullptr : go_to(std::prev(nodes_.end())); }
 void *LinkedList::get_next() { return current_ == nodes_.end() ? nullptr : go_to(std::next(current_)); }
-void *LinkedList::get_last() { return current_ == nodes_.end() || current_ == nodes_.begin() ? nullptr : go_to(std::prev(current_)); }
-void *LinkedList::find_node(int nth) { return nth < 0 || nth >= list_size ? nullptr : go_to(std::next(nodes_.begin(), nth)); }
+void *LinkedList::get_last() {
+    return current_ == nodes_.end() || current_ == nodes_.begin() ? nullptr : go_to(std::prev(current_));
+}
+void *LinkedList::find_node(int nth) {
+    return nth < 0 || nth >= list_size ? nullptr : go_to(std::next(nodes_.begin(), nth));
+}
 
 void *LinkedList::get_by_id(int id) {
     return go_to(std::find_if(nodes_.begin(), nodes_.end(), [id](const LinkedListNode &n) { return n.id == id; }));

@@ -22,7 +22,8 @@ MessageSet::MessageSet(std::vector<MessageType> types) : types_(std::move(types)
 }
 
 const MessageType *MessageSet::find(NMLTYPE type) const {
-    auto it = std::lower_bound(types_.begin(), types_.end(), type, [](const MessageType &m, NMLTYPE t) { return m.type < t; });
+    auto it = std::lower_bound(types_.begin(), types_.end(), type,
+                               [](const MessageType &m, NMLTYPE t) { return m.type < t; });
     return it != types_.end() && it->type == type ? &*it : nullptr;
 }
 
@@ -44,7 +45,11 @@ NML_ERROR_TYPE nml_error_of(CMS_STATUS status) {
     case CMS_NO_MASTER_ERROR: return NML_NO_MASTER_ERROR;
     case CMS_WRITE_WAS_BLOCKED: return NML_BUFFER_NOT_READ;
     case CMS_RESOURCE_CONFLICT_ERROR: case CMS_CREATE_ERROR: case CMS_CONFIG_ERROR: return NML_INVALID_CONFIGURATION;
-    case CMS_STATUS_NOT_SET: case CMS_READ_OLD: case CMS_READ_OK: case CMS_WRITE_OK: case CMS_CLEAR_OK: return NML_NO_ERROR;
+    case CMS_STATUS_NOT_SET:
+    case CMS_READ_OLD:
+    case CMS_READ_OK:
+    case CMS_WRITE_OK:
+    case CMS_CLEAR_OK: return NML_NO_ERROR;
     default: return NML_INTERNAL_CMS_ERROR;
     }
 }
@@ -60,7 +65,8 @@ const char *default_nml_config_file() {
     return default_file().empty() ? kerf_path(KERF_PATH_NMLFILE) : default_file().c_str();
 }
 
-NML::NML(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, int set_to_server, int set_to_master)
+NML::NML(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, int set_to_server,
+         int set_to_master)
     : set_(set), buffer_(buffer, strnlen(buffer, 39)), process_(process, strnlen(process, 39)) {
     std::string path = file ? std::string(file, strnlen(file, 159)) : default_nml_config_file();
     auto c = nml::find_connection(path, buffer_, process_);
@@ -94,7 +100,8 @@ bool NML::reconnect() {
     if (!connection_) return false;
     const nml::Connection &c = *connection_;
     transport_.reset(); // before the next one: it may be the same place
-    if (c.process.kind == nml::ProcessKind::phantom || c.buffer.kind == nml::BufferKind::phantom) transport_ = nml::open_phantom(c);
+    if (c.process.kind == nml::ProcessKind::phantom || c.buffer.kind == nml::BufferKind::phantom)
+        transport_ = nml::open_phantom(c);
     else if (c.process.kind == nml::ProcessKind::remote) transport_ = nml::open_tcp(c, set_);
     else if (c.buffer.kind == nml::BufferKind::locmem) transport_ = nml::open_local_memory(c);
     else transport_ = nml::open_shared_memory(c, master_);
@@ -140,7 +147,8 @@ int run_nml_servers(const volatile int *stop) {
     return 0;
 }
 
-std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, double seconds) {
+std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file,
+                                 double seconds) {
     for (;;) {
         auto channel = std::make_unique<NML>(set, buffer, process, file);
         if (channel->valid() || channel->status == CMS_CONFIG_ERROR) return channel;
@@ -214,7 +222,8 @@ NMLTYPE NML::blocking_read(double t) {
 
 #pragma GCC diagnostic ignored "-Winvalid-offsetof" // single inheritance of plain data: the offset is fixed
 
-static int write_message(NML &n, nml::Transport *to, const nml::MessageSet &set, NMLmsg &msg, bool only_if_read, int *serial) {
+static int write_message(NML &n, nml::Transport *to, const nml::MessageSet &set, NMLmsg &msg, bool only_if_read,
+                         int *serial) {
     const nml::MessageType *m = set.find(msg._type);
     bool command = m && m->kind == nml::Kind::command;
     int id = 0;
@@ -228,13 +237,13 @@ static int write_message(NML &n, nml::Transport *to, const nml::MessageSet &set,
     n.status = to->write(reinterpret_cast<const unsigned char *>(&msg), msg.size, at, only_if_read, &id);
     n.error_type = nml_error_of(n.status);
     if (n.status == CMS_INSUFFICIENT_SPACE_ERROR) n.error_type = NML_FORMAT_ERROR;
-    if (n.error_type == NML_NO_ERROR && before == NML_INVALID_MESSAGE_ERROR && (msg.size <= 0 || msg._type <= 0)) n.error_type = before;
+    if (n.error_type == NML_NO_ERROR && before == NML_INVALID_MESSAGE_ERROR && (msg.size <= 0 || msg._type <= 0))
+        n.error_type = before;
     if (n.status != CMS_WRITE_OK) return -1;
     if (command) static_cast<RCS_CMD_MSG &>(msg).serial_number = id;
     if (serial) *serial = id;
     return 0;
 }
-
 
 int NML::write(NMLmsg &msg, int *serial) {
     if (!valid()) return -1;
@@ -292,7 +301,8 @@ std::string NML::msg2str(const NMLmsg &msg) const {
 }
 
 NMLTYPE NML::str2msg(const std::string &text) {
-    const bool good = nml::decode_message(set_, reinterpret_cast<const unsigned char *>(text.data()), text.size(), get_address(), local_.size(), nml::Coding::disp);
+    const bool good = nml::decode_message(set_, reinterpret_cast<const unsigned char *>(text.data()), text.size(),
+                                          get_address(), local_.size(), nml::Coding::disp);
     return good ? get_address()->_type : -1;
 }
 

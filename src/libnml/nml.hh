@@ -179,7 +179,8 @@ private:
 };
 
 // Tries every `seconds` until the connection is there; never gives up on anything but a wrong file.
-std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file, double seconds);
+std::unique_ptr<NML> nmlWaitOpen(const nml::MessageSet &set, const char *buffer, const char *process, const char *file,
+                                 double seconds);
 // File used when the constructor gets a null file. Initially the one of this installation.
 void set_default_nml_config_file(const char *file);
 const char *default_nml_config_file();

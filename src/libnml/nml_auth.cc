@@ -53,7 +53,8 @@ std::string random_bytes(size_t n) {
 std::string hmac(const std::string &key, const std::string &data) {
     unsigned char sum[EVP_MAX_MD_SIZE];
     unsigned int n = 0;
-    HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), reinterpret_cast<const unsigned char *>(data.data()), data.size(), sum, &n);
+    HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), reinterpret_cast<const unsigned char *>(data.data()),
+         data.size(), sum, &n);
     return std::string(reinterpret_cast<char *>(sum), n);
 }
 
@@ -67,10 +68,13 @@ std::string to_hex(const std::string &bytes) {
     return out;
 }
 
-bool equal_secret(const std::string &a, const std::string &b) { return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0; }
+bool equal_secret(const std::string &a, const std::string &b) {
+    return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
 
 bool is_loopback(const sockaddr *address) {
-    if (address->sa_family == AF_INET) return ntohl(reinterpret_cast<const sockaddr_in *>(address)->sin_addr.s_addr) >> 24 == 127;
+    if (address->sa_family == AF_INET)
+        return ntohl(reinterpret_cast<const sockaddr_in *>(address)->sin_addr.s_addr) >> 24 == 127;
     if (address->sa_family != AF_INET6) return false;
     const in6_addr &six = reinterpret_cast<const sockaddr_in6 *>(address)->sin6_addr;
     return IN6_IS_ADDR_LOOPBACK(&six) || (IN6_IS_ADDR_V4MAPPED(&six) && six.s6_addr[12] == 127);

@@ -125,7 +125,8 @@ std::vector<unsigned char> encode_message(const MessageSet &set, const NMLmsg &m
     return e.bytes();
 }
 
-bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room, Coding coding) {
+bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room,
+                    Coding coding) {
     if (coding == Coding::raw) {
         NMLmsg head;
         if (size < sizeof head || size > room) return false;

@@ -166,7 +166,9 @@ template <class T> MessageType describe(const char *name) {
     m.type = sample._type;
     m.name = name;
     m.size = sizeof(T);
-    m.kind = std::is_base_of_v<RCS_CMD_MSG, T> ? Kind::command : std::is_base_of_v<RCS_STAT_MSG, T> ? Kind::status : Kind::plain;
+    m.kind = std::is_base_of_v<RCS_CMD_MSG, T>    ? Kind::command
+             : std::is_base_of_v<RCS_STAT_MSG, T> ? Kind::status
+                                                  : Kind::plain;
     m.encode = [](const NMLmsg &msg, Encoder &e) {
         const T &t = static_cast<const T &>(msg);
         if constexpr (std::is_base_of_v<RCS_CMD_MSG, T>) e.put(t.serial_number);
@@ -185,7 +187,8 @@ template <class T> MessageType describe(const char *name) {
 // A whole message; empty when its type is unknown.
 std::vector<unsigned char> encode_message(const MessageSet &set, const NMLmsg &msg, Coding coding);
 // Fills msg (room bytes). False: unknown type, does not fit, malformed.
-bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room, Coding coding);
+bool decode_message(const MessageSet &set, const unsigned char *data, size_t size, NMLmsg *msg, size_t room,
+                    Coding coding);
 
 } // namespace nml
 #endif

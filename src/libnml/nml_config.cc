@@ -47,7 +47,8 @@ bool read_lines(const std::string &file, std::vector<Words> *out) {
     }
     std::string line, more;
     while (std::getline(in, line)) {
-        while (!line.empty() && line.back() == '\\' && std::getline(in, more)) line = line.substr(0, line.size() - 1) + more;
+        while (!line.empty() && line.back() == '\\' && std::getline(in, more))
+            line = line.substr(0, line.size() - 1) + more;
         if (line.size() < 3 || line[0] == '#' || line[0] == ' ' || line[0] == '\t') continue;
         std::istringstream words(line);
         Words w;
@@ -65,7 +66,10 @@ std::optional<nml::BufferLine> parse_buffer(const Words &w, const std::string &f
     if (w[2] == "SHMEM") b.kind = nml::BufferKind::shmem;
     else if (w[2] == "LOCMEM") b.kind = nml::BufferKind::locmem;
     else if (w[2] == "PHANTOM") b.kind = nml::BufferKind::phantom;
-    else { rcs_print_error("cms_config: buffer %s: type %s is not available\n", w[1].c_str(), w[2].c_str()); return {}; }
+    else {
+        rcs_print_error("cms_config: buffer %s: type %s is not available\n", w[1].c_str(), w[2].c_str());
+        return {};
+    }
     auto alias = aliases().find(w[3]);
     b.host = alias == aliases().end() ? w[3] : alias->second;
     b.size = number(w[4]);
@@ -127,7 +131,10 @@ std::optional<nml::ProcessLine> parse_process(const Words &w, const nml::BufferL
     else if (kind == "REMOTE") p.kind = nml::ProcessKind::remote;
     else if (kind == "PHANTOM") p.kind = nml::ProcessKind::phantom;
     else if (kind == "AUTO") p.kind = is_this_host(b.host) ? nml::ProcessKind::local : nml::ProcessKind::remote;
-    else { rcs_print_error("cms_config: process %s: type %s is not available\n", w[1].c_str(), w[3].c_str()); return {}; }
+    else {
+        rcs_print_error("cms_config: process %s: type %s is not available\n", w[1].c_str(), w[3].c_str());
+        return {};
+    }
     if (force_kind == Force::remote && p.kind == nml::ProcessKind::local) p.kind = nml::ProcessKind::remote;
     if (force_kind == Force::local && p.kind == nml::ProcessKind::remote) p.kind = nml::ProcessKind::local;
     p.read = w[5].find('R') != std::string::npos;
@@ -146,7 +153,8 @@ std::optional<nml::ProcessLine> parse_process(const Words &w, const nml::BufferL
 
 } // namespace
 
-std::optional<nml::Connection> nml::find_connection(const std::string &file, const std::string &buffer, const std::string &process) {
+std::optional<nml::Connection> nml::find_connection(const std::string &file, const std::string &buffer,
+                                                    const std::string &process) {
     std::vector<Words> lines;
     if (!read_lines(file, &lines)) return {};
     Connection c;
@@ -164,7 +172,8 @@ std::optional<nml::Connection> nml::find_connection(const std::string &file, con
     }
     const Words *p = exact ? exact : any ? any : neither;
     if (!p) {
-        rcs_print_error("No process-line entry found for process %s connecting to buffer %s in config file %s and no applicable defaults were found.\n",
+        rcs_print_error("No process-line entry found for process %s connecting to buffer %s in config file %s and no "
+                        "applicable defaults were found.\n",
                         process.c_str(), buffer.c_str(), file.c_str());
         return {};
     }

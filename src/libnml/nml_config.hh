@@ -54,7 +54,8 @@ struct Connection {
 };
 
 // Looks the connection up; on failure prints the reason (if verbose) and returns nothing.
-std::optional<Connection> find_connection(const std::string &file, const std::string &buffer, const std::string &process);
+std::optional<Connection> find_connection(const std::string &file, const std::string &buffer,
+                                          const std::string &process);
 
 // All B lines of a file, in order; empty when it cannot be read.
 std::vector<BufferLine> buffers_of(const std::string &file);

@@ -34,7 +34,9 @@ static int64_t wall_ns() {
 }
 
 // Text field of `room` bytes that need not end with a zero.
-static std::string text_of(const unsigned char *p, size_t room) { return std::string(reinterpret_cast<const char *>(p), strnlen(reinterpret_cast<const char *>(p), room)); }
+static std::string text_of(const unsigned char *p, size_t room) {
+    return std::string(reinterpret_cast<const char *>(p), strnlen(reinterpret_cast<const char *>(p), room));
+}
 
 Server::~Server() {
     for (auto &l : listeners_) close(l.first);
@@ -58,7 +60,8 @@ bool Server::listen(const std::string &address) {
     for (auto &b : buffers_) {
         std::string problem;
         if (!b.second.line.passwd.empty()) read_logins(b.second.line.passwd, &problem);
-        else if (!is_loopback(reinterpret_cast<sockaddr *>(&at))) problem = "other computers need a password: add passwd=FILE to its B line";
+        else if (!is_loopback(reinterpret_cast<sockaddr *>(&at)))
+            problem = "other computers need a password: add passwd=FILE to its B line";
         if (problem.empty()) continue;
         rcs_print_error("NML server: buffer %s is not served: %s\n", b.second.line.name.c_str(), problem.c_str());
         ports.erase(b.first.first);
@@ -117,7 +120,8 @@ void Server::subscribe(Client &c, int number, uint32_t serial, uint32_t kind, ui
         put_word(c.out, 0);
         return;
     }
-    c.subscriptions[number] = {serial, kind == SUBSCRIBE_POLLED ? static_cast<int64_t>(std::min(period_ms, 3'600'000u)) * 1'000'000 : 0, 0, 0};
+    c.subscriptions[number] = {
+        serial, kind == SUBSCRIBE_POLLED ? static_cast<int64_t>(std::min(period_ms, 3'600'000u)) * 1'000'000 : 0, 0, 0};
     put_word(c.out, serial);
     put_word(c.out, 1);
 }
@@ -147,24 +151,29 @@ void Server::reply_diagnosis(Client &c, uint32_t serial, Buffer &b) {
         strncpy(name, d.process.c_str(), sizeof name - 1);
         c.out.insert(c.out.end(), name, name + sizeof name);
         put_word(c.out, static_cast<uint32_t>(d.pid));
-        for (int64_t v : {d.reads, d.read_bytes, d.writes, d.write_bytes, static_cast<int64_t>(d.last * 1e9)}) put_long(c.out, v);
+        for (int64_t v : {d.reads, d.read_bytes, d.writes, d.write_bytes, static_cast<int64_t>(d.last * 1e9)})
+            put_long(c.out, v);
     }
 }
 
 bool Server::login(Client &c, const unsigned char *data, Buffer &b) {
-    std::string problem, name = text_of(data, 16), answer(reinterpret_cast<const char *>(data) + 16, 16), challenge = std::move(c.challenge);
+    std::string problem, name = text_of(data, 16), answer(reinterpret_cast<const char *>(data) + 16, 16),
+                         challenge = std::move(c.challenge);
     c.challenge.clear(); // each is good for one answer
     if (challenge.empty()) return false;
     bool good = false;
     for (const Login &l : read_logins(b.line.passwd, &problem))
         good |= l.name == name && equal_secret(hmac(l.password, challenge + name).substr(0, 16), answer);
-    if (!good) rcs_print_error("NML server: login of '%s' from %s to %s refused%s%s\n", name.c_str(), c.peer.c_str(), b.line.name.c_str(), problem.empty() ? "" : ": ", problem.c_str());
+    if (!good)
+        rcs_print_error("NML server: login of '%s' from %s to %s refused%s%s\n", name.c_str(), c.peer.c_str(),
+                        b.line.name.c_str(), problem.empty() ? "" : ": ", problem.c_str());
     return good;
 }
 
 // One request. False: the client is to be dropped.
 bool Server::answer(Client &c, const unsigned char *head, const unsigned char *data, size_t size) {
-    uint32_t serial = get_word(head), type = get_word(head + 4), number = get_word(head + 8), w3 = get_word(head + 12), w4 = get_word(head + 16);
+    uint32_t serial = get_word(head), type = get_word(head + 4), number = get_word(head + 8), w3 = get_word(head + 12),
+             w4 = get_word(head + 16);
     if (!c.begun && type == REQ_GET_BUF_NAME && serial == 0) c.counts = 1; // how those begin
     c.begun = true;
     serial += c.counts;
@@ -176,8 +185,8 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
         return true;
     }
     Buffer &b = it->second;
-    if (!b.line.passwd.empty() && !c.trusted.count(static_cast<int>(number)) && type != REQ_GET_KEYS && type != REQ_LOGIN && type != REQ_CLOSE_CHANNEL &&
-        type != REQ_GET_BUF_NAME) {
+    if (!b.line.passwd.empty() && !c.trusted.count(static_cast<int>(number)) && type != REQ_GET_KEYS &&
+        type != REQ_LOGIN && type != REQ_CLOSE_CHANNEL && type != REQ_GET_BUF_NAME) {
         rcs_print_error("NML server: %s wants %s without a login\n", c.peer.c_str(), b.line.name.c_str());
         return false;
     }
@@ -189,25 +198,35 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
     case REQ_BLOCKING_READ:
         {
             int32_t ms = static_cast<int32_t>(get_word(data));
-            c.pending = {true, serial, w3, static_cast<int>(w4), static_cast<int>(number), ms < 0 ? -1 : wall_ns() + ms * 1000000LL};
+            c.pending = {true,
+                         serial,
+                         w3,
+                         static_cast<int>(w4),
+                         static_cast<int>(number),
+                         ms < 0 ? -1 : wall_ns() + ms * 1000000LL};
             try_pending(c);
             return true;
         }
     case REQ_WRITE:
         {
-            std::vector<unsigned char> raw(static_cast<size_t>(std::max(t->max_message(), static_cast<long>(sizeof(NMLmsg)))));
-            NMLmsg *m = reinterpret_cast<NMLmsg *>(raw.data());
-            CMS_STATUS s = CMS_UPDATE_ERROR;
-            int id = 0;
-            if (decode_message(b.channel->messages(), data, size, m, raw.size(), b.line.coding)) {
-                b.channel->write_raw(*m, w3 == ACCESS_WRITE_IF_READ, &id);
-                s = b.channel->status;
-                if (s == CMS_WRITE_OK && wrote) wrote(c.id, *b.channel, *m);
+        std::vector<unsigned char> raw(
+            static_cast<size_t>(std::max(t->max_message(), static_cast<long>(sizeof(NMLmsg)))));
+        NMLmsg *m = reinterpret_cast<NMLmsg *>(raw.data());
+        CMS_STATUS s = CMS_UPDATE_ERROR;
+        int id = 0;
+        if (decode_message(b.channel->messages(), data, size, m, raw.size(), b.line.coding)) {
+            b.channel->write_raw(*m, w3 == ACCESS_WRITE_IF_READ, &id);
+            s = b.channel->status;
+            if (s == CMS_WRITE_OK && wrote) wrote(c.id, *b.channel, *m);
             }
             if (b.line.confirm_write) words({static_cast<uint32_t>(id), static_cast<uint32_t>(s), 0});
             return s != CMS_UPDATE_ERROR;
         }
-    case REQ_CHECK_IF_READ: { CMS_STATUS s = t->check_if_read(&n); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)}); return true; }
+        case REQ_CHECK_IF_READ: {
+            CMS_STATUS s = t->check_if_read(&n);
+            words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)});
+            return true;
+        }
     case REQ_CLEAR: words({serial, static_cast<uint32_t>(t->clear())}); return true;
     case REQ_CLOSE_CHANNEL: return false;
     case REQ_GET_KEYS:
@@ -224,7 +243,9 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
             return true;
         }
     case REQ_SET_SUBSCRIPTION: subscribe(c, static_cast<int>(number), serial, w3, w4); return true;
-    case REQ_CANCEL_SUBSCRIPTION: words({serial, static_cast<uint32_t>(c.subscriptions.erase(static_cast<int>(number)))}); return true;
+    case REQ_CANCEL_SUBSCRIPTION:
+        words({serial, static_cast<uint32_t>(c.subscriptions.erase(static_cast<int>(number)))});
+        return true;
     case REQ_GET_BUF_NAME:
         {
             words({serial, static_cast<uint32_t>(CMS_STATUS_NOT_SET)});
@@ -235,9 +256,21 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
         }
     case REQ_SET_DIAG_INFO: return true; // the buffer counts by itself
     case REQ_GET_DIAG_INFO: reply_diagnosis(c, serial, b); return true;
-    case REQ_GET_MSG_COUNT: { CMS_STATUS s = t->message_count(&n); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)}); return true; }
-    case REQ_GET_QUEUE_LENGTH: { CMS_STATUS s = t->queue_length(&n); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)}); return true; }
-    case REQ_GET_SPACE_AVAILABLE: { CMS_STATUS s = t->space_available(&bytes); words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(bytes)}); return true; }
+    case REQ_GET_MSG_COUNT: {
+        CMS_STATUS s = t->message_count(&n);
+        words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)});
+        return true;
+    }
+    case REQ_GET_QUEUE_LENGTH: {
+        CMS_STATUS s = t->queue_length(&n);
+        words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(n)});
+        return true;
+    }
+    case REQ_GET_SPACE_AVAILABLE: {
+        CMS_STATUS s = t->space_available(&bytes);
+        words({serial, static_cast<uint32_t>(s), static_cast<uint32_t>(bytes)});
+        return true;
+    }
     default: return false;
     }
 }
@@ -257,12 +290,15 @@ bool Server::consume(Client &c) {
         default: break;
         }
         if (extra > MAX_REQUEST_DATA || type < REQ_READ || type > REQ_GET_SPACE_AVAILABLE) {
-            rcs_print_error("NML server: %s sent what is no request (type %u, %zu bytes); dropped\n", c.peer.c_str(), type, extra);
+            rcs_print_error("NML server: %s sent what is no request (type %u, %zu bytes); dropped\n", c.peer.c_str(),
+                            type, extra);
             return false;
         }
         if (c.in.size() < REQUEST_BYTES + extra) return true;
         if (!answer(c, c.in.data(), c.in.data() + REQUEST_BYTES, extra)) {
-            if (type != REQ_CLOSE_CHANNEL) rcs_print_error("NML server: %s sent a request that can not be read (type %u); dropped\n", c.peer.c_str(), type);
+            if (type != REQ_CLOSE_CHANNEL)
+                rcs_print_error("NML server: %s sent a request that can not be read (type %u); dropped\n",
+                                c.peer.c_str(), type);
             return false;
         }
         c.in.erase(c.in.begin(), c.in.begin() + static_cast<std::ptrdiff_t>(REQUEST_BYTES + extra));

@@ -37,7 +37,12 @@ public:
 private:
     struct Buffer { NML *channel; BufferLine line; };
     // A read that waits for a message, until `until` (ns of wall time, negative: for ever).
-    struct Pending { bool any = false; uint32_t serial = 0, access = 0; int last_id = 0, number = 0; int64_t until = 0; };
+    struct Pending {
+        bool any = false;
+        uint32_t serial = 0, access = 0;
+        int last_id = 0, number = 0;
+        int64_t until = 0;
+    };
     struct Subscription { uint32_t serial = 0; int64_t period_ns = 0, next_ns = 0; int last_id = 0; };
     struct Client {
         int fd, port, id;

@@ -196,8 +196,8 @@ public:
         for (int i = 0; i < seg_->users; i++) {
             const Usage &u = usage_of(seg_)[i];
             if (u.pid == 0) continue;
-            all->push_back({i, std::string(u.process, strnlen(u.process, sizeof u.process)), u.pid, u.reads, u.read_bytes, u.writes, u.write_bytes,
-                            static_cast<double>(u.last_ns) * 1e-9});
+            all->push_back({i, std::string(u.process, strnlen(u.process, sizeof u.process)), u.pid, u.reads,
+                            u.read_bytes, u.writes, u.write_bytes, static_cast<double>(u.last_ns) * 1e-9});
         }
         return CMS_READ_OK;
     }
@@ -223,7 +223,8 @@ protected:
 private:
     void count(std::atomic<int64_t> Usage::*messages, std::atomic<int64_t> Usage::*bytes, long size) {
         if (!usage_) return;
-        usage_->pid.store(getpid(), std::memory_order_relaxed); // a server goes into the background with its connections
+        usage_->pid.store(getpid(),
+                          std::memory_order_relaxed); // a server goes into the background with its connections
         (usage_->*messages).fetch_add(1, std::memory_order_relaxed);
         (usage_->*bytes).fetch_add(size, std::memory_order_relaxed);
         usage_->last_ns.store(wall_ns(), std::memory_order_relaxed);
@@ -295,7 +296,8 @@ private:
                 if (seg_->seq.load(std::memory_order_relaxed) != s) continue;
                 return CMS_READ_OLD;
             }
-            const unsigned char *from = data_of(seg_) + static_cast<size_t>(s & 1) * static_cast<size_t>(seg_->capacity);
+            const unsigned char *from =
+                data_of(seg_) + static_cast<size_t>(s & 1) * static_cast<size_t>(seg_->capacity);
             memcpy(data, from, static_cast<size_t>(b.size));
             std::atomic_thread_fence(std::memory_order_acquire);
             if (seg_->seq.load(std::memory_order_relaxed) != s) continue;
@@ -318,7 +320,8 @@ private:
         if (b.length == 0) return CMS_READ_OLD;
         MessageHead head;
         memcpy(&head, data_of(seg_) + b.head, sizeof head);
-        if (head.size < 0 || b.head + MESSAGE_HEADER_BYTES + head.size > seg_->capacity) return CMS_INTERNAL_ACCESS_ERROR;
+        if (head.size < 0 || b.head + MESSAGE_HEADER_BYTES + head.size > seg_->capacity)
+            return CMS_INTERNAL_ACCESS_ERROR;
         memcpy(data, data_of(seg_) + b.head + sizeof head, static_cast<size_t>(head.size));
         *size = static_cast<long>(head.size);
         last_id_ = head.write_id;
@@ -351,8 +354,8 @@ private:
         }
         if (need > left) {
             rcs_print_error("CMS: %s message queue is full.\n", conn_.buffer.name.c_str());
-            rcs_print_error("(continued) CMS: Message requires %ld bytes but only %ld bytes are left.\n", static_cast<long>(need),
-                            static_cast<long>(left));
+            rcs_print_error("(continued) CMS: Message requires %ld bytes but only %ld bytes are left.\n",
+                            static_cast<long>(need), static_cast<long>(left));
             return false;
         }
         *to = data_of(seg_) + b.tail;
@@ -380,7 +383,8 @@ public:
             if (id < 0 && errno == EINVAL) { // one of another size: ours, from before
                 int old = shmget(key, 0, 0);
                 shmid_ds info;
-                if (old >= 0 && shmctl(old, IPC_STAT, &info) == 0 && info.shm_nattch == 0 && shmctl(old, IPC_RMID, nullptr) == 0)
+                if (old >= 0 && shmctl(old, IPC_STAT, &info) == 0 && info.shm_nattch == 0 &&
+                    shmctl(old, IPC_RMID, nullptr) == 0)
                     id = shmget(key, bytes, IPC_CREAT | 0666);
                 else errno = EEXIST;
             }
@@ -395,13 +399,18 @@ public:
         }
         if (seg_ && master) {
             if (seg_->name[0] && strncmp(seg_->name, b.name.c_str(), sizeof seg_->name - 1) != 0)
-                rcs_print_error("Shared memory buffers %s and %s may conflict. (key=%d(0x%X))\n", b.name.c_str(), seg_->name, b.key, static_cast<unsigned>(b.key));
+                rcs_print_error("Shared memory buffers %s and %s may conflict. (key=%d(0x%X))\n", b.name.c_str(),
+                                seg_->name, b.key, static_cast<unsigned>(b.key));
             prepare(seg_, b, true);
         }
         if (lock >= 0) kerf_instance_unlock(lock);
         if (error) { open_status_ = status_of(error, !master); return; }
         shmid_ds info;
-        if (shmctl(id, IPC_STAT, &info) == 0 && info.shm_segsz < sizeof(Segment)) { drop(); open_status_ = CMS_RESOURCE_CONFLICT_ERROR; return; }
+        if (shmctl(id, IPC_STAT, &info) == 0 && info.shm_segsz < sizeof(Segment)) {
+            drop();
+            open_status_ = CMS_RESOURCE_CONFLICT_ERROR;
+            return;
+        }
         if (seg_->magic.load(std::memory_order_acquire) != MAGIC ||
             info.shm_segsz < segment_bytes(seg_->queue, seg_->capacity, seg_->users)) {
             drop();
@@ -409,7 +418,8 @@ public:
             return;
         }
         if (strncmp(seg_->name, b.name.c_str(), sizeof seg_->name - 1) != 0)
-            rcs_print_error("Shared memory buffers %s and %s may conflict. (key=%d(0x%X))\n", b.name.c_str(), seg_->name, b.key, static_cast<unsigned>(b.key));
+            rcs_print_error("Shared memory buffers %s and %s may conflict. (key=%d(0x%X))\n", b.name.c_str(),
+                            seg_->name, b.key, static_cast<unsigned>(b.key));
         opened();
     }
     ~SharedMemory() override { drop(); }
@@ -453,7 +463,10 @@ public:
     long max_message() const override { return bytes_; }
     CMS_STATUS read(unsigned char *, long *) override { return CMS_READ_OLD; }
     CMS_STATUS peek(unsigned char *, long *) override { return CMS_READ_OLD; }
-    CMS_STATUS write(const unsigned char *, long, long, bool, int *id) override { if (id) *id = 0; return CMS_WRITE_OK; }
+    CMS_STATUS write(const unsigned char *, long, long, bool, int *id) override {
+        if (id) *id = 0;
+        return CMS_WRITE_OK;
+    }
     CMS_STATUS check_if_read(int *was_read) override { *was_read = 1; return CMS_READ_OK; }
     CMS_STATUS clear() override { return CMS_CLEAR_OK; }
     CMS_STATUS queue_length(int *n) override { *n = 0; return CMS_READ_OK; }
@@ -465,7 +478,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Transport> open_shared_memory(const Connection &c, bool master) { return std::make_unique<SharedMemory>(c, master); }
+std::unique_ptr<Transport> open_shared_memory(const Connection &c, bool master) {
+    return std::make_unique<SharedMemory>(c, master);
+}
 std::unique_ptr<Transport> open_local_memory(const Connection &c) { return std::make_unique<LocalMemory>(c); }
 std::unique_ptr<Transport> open_phantom(const Connection &c) { return std::make_unique<Phantom>(c); }
 

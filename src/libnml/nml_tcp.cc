@@ -43,9 +43,11 @@ public:
         const NMLmsg &m = *reinterpret_cast<const NMLmsg *>(data);
         std::vector<unsigned char> body = encode_message(set_, m, conn_.buffer.coding);
         if (body.empty()) return CMS_UPDATE_ERROR;
-        if (conn_.buffer.enc_max_size > 0 && body.size() > static_cast<size_t>(conn_.buffer.enc_max_size)) return CMS_INSUFFICIENT_SPACE_ERROR;
+        if (conn_.buffer.enc_max_size > 0 && body.size() > static_cast<size_t>(conn_.buffer.enc_max_size))
+            return CMS_INSUFFICIENT_SPACE_ERROR;
         std::vector<unsigned char> reply(conn_.buffer.confirm_write ? 12 : 0);
-        CMS_STATUS s = exchange(REQ_WRITE, only_if_read ? ACCESS_WRITE_IF_READ : ACCESS_WRITE, static_cast<uint32_t>(body.size()), body, reply.data(), reply.size());
+        CMS_STATUS s = exchange(REQ_WRITE, only_if_read ? ACCESS_WRITE_IF_READ : ACCESS_WRITE,
+                                static_cast<uint32_t>(body.size()), body, reply.data(), reply.size());
         if (s != CMS_STATUS_NOT_SET) return s;
         if (reply.empty()) { if (id) *id = 0; return CMS_WRITE_OK; }
         if (id) *id = static_cast<int>(get_word(reply.data()));
@@ -55,7 +57,10 @@ public:
     CMS_STATUS check_if_read(int *was_read) override {
         unsigned char r[12];
         CMS_STATUS s = exchange(REQ_CHECK_IF_READ, 0, 0, {}, r, sizeof r);
-        if (s == CMS_STATUS_NOT_SET) { *was_read = static_cast<int>(get_word(r + 8)); s = static_cast<CMS_STATUS>(static_cast<int32_t>(get_word(r + 4))); }
+        if (s == CMS_STATUS_NOT_SET) {
+            *was_read = static_cast<int>(get_word(r + 8));
+            s = static_cast<CMS_STATUS>(static_cast<int32_t>(get_word(r + 4)));
+        }
         return s;
     }
     CMS_STATUS clear() override {
@@ -79,8 +84,11 @@ public:
         for (uint32_t n = get_word(head + 8); n > 0; n--) {
             if (!receive(r, sizeof r)) return CMS_TIMED_OUT;
             const unsigned char *name = r + 4, *v = r + 4 + DIAG_NAME_BYTES;
-            all->push_back({static_cast<int>(get_word(r)), std::string(reinterpret_cast<const char *>(name), strnlen(reinterpret_cast<const char *>(name), DIAG_NAME_BYTES)),
-                            static_cast<int>(get_word(v)), get_long(v + 4), get_long(v + 12), get_long(v + 20), get_long(v + 28), static_cast<double>(get_long(v + 36)) * 1e-9});
+            all->push_back({static_cast<int>(get_word(r)),
+                            std::string(reinterpret_cast<const char *>(name),
+                                        strnlen(reinterpret_cast<const char *>(name), DIAG_NAME_BYTES)),
+                            static_cast<int>(get_word(v)), get_long(v + 4), get_long(v + 12), get_long(v + 20),
+                            get_long(v + 28), static_cast<double>(get_long(v + 36)) * 1e-9});
         }
         return static_cast<CMS_STATUS>(static_cast<int32_t>(get_word(head + 4)));
     }
@@ -110,14 +118,17 @@ private:
         std::vector<unsigned char> body(bytes);
         if (bytes && !receive(body.data(), bytes)) return CMS_TIMED_OUT;
         if (s == CMS_READ_OK) {
-            if (!decode_message(set_, body.data(), body.size(), reinterpret_cast<NMLmsg *>(data), static_cast<size_t>(max_message()), conn_.buffer.coding)) return CMS_UPDATE_ERROR;
+            if (!decode_message(set_, body.data(), body.size(), reinterpret_cast<NMLmsg *>(data),
+                                static_cast<size_t>(max_message()), conn_.buffer.coding))
+                return CMS_UPDATE_ERROR;
             *size = reinterpret_cast<NMLmsg *>(data)->size;
             last_id_ = static_cast<int>(get_word(r + 12));
         }
         return s;
     }
 
-    CMS_STATUS exchange(Request what, uint32_t w3, uint32_t w4, const std::vector<unsigned char> &body, unsigned char *reply, size_t reply_size) {
+    CMS_STATUS exchange(Request what, uint32_t w3, uint32_t w4, const std::vector<unsigned char> &body,
+                        unsigned char *reply, size_t reply_size) {
         if (fd_ < 0 && !reconnect()) return CMS_NO_SERVER_ERROR;
         std::vector<unsigned char> out;
         put_word(out, static_cast<uint32_t>(serial_++));
@@ -131,7 +142,9 @@ private:
         return CMS_STATUS_NOT_SET;
     }
 
-    int timeout_ms() const { return conn_.process.timeout < 0 ? -1 : std::max(1, static_cast<int>(conn_.process.timeout * 1000)); }
+    int timeout_ms() const {
+        return conn_.process.timeout < 0 ? -1 : std::max(1, static_cast<int>(conn_.process.timeout * 1000));
+    }
 
     bool transmit(const unsigned char *p, size_t n) {
         while (n > 0) {
@@ -180,7 +193,9 @@ private:
                 pollfd f{fd, POLLOUT, 0};
                 int error = 0;
                 socklen_t len = sizeof error;
-                if (::poll(&f, 1, timeout_ms()) > 0 && getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &len) == 0 && error == 0) r = 0;
+                if (::poll(&f, 1, timeout_ms()) > 0 && getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &len) == 0 &&
+                    error == 0)
+                    r = 0;
             }
             if (r == 0) {
                 int one = 1;
@@ -193,18 +208,21 @@ private:
         }
         freeaddrinfo(found);
         if (fd_ >= 0 && !right_buffer()) {
-            rcs_print_error("NML: buffer %d at %s port %s is not %s\n", conn_.buffer.number, conn_.buffer.host.c_str(), port.c_str(), conn_.buffer.name.c_str());
+            rcs_print_error("NML: buffer %d at %s port %s is not %s\n", conn_.buffer.number, conn_.buffer.host.c_str(),
+                            port.c_str(), conn_.buffer.name.c_str());
             drop();
             return false;
         }
         const bool named = !conn_.login_name.empty();
         if (fd_ >= 0 && (named || !conn_.buffer.passwd.empty()) && !login()) {
-            rcs_print_error("NML: the server of buffer %s at %s refuses the login of %s\n", conn_.buffer.name.c_str(), conn_.buffer.host.c_str(),
-                            (named ? conn_.login_name : conn_.buffer.passwd).c_str());
+            rcs_print_error("NML: the server of buffer %s at %s refuses the login of %s\n", conn_.buffer.name.c_str(),
+                            conn_.buffer.host.c_str(), (named ? conn_.login_name : conn_.buffer.passwd).c_str());
             drop();
             return false;
         }
-        if (fd_ < 0) rcs_print_error("NML: no server for buffer %s at %s port %s\n", conn_.buffer.name.c_str(), conn_.buffer.host.c_str(), port.c_str());
+        if (fd_ < 0)
+            rcs_print_error("NML: no server for buffer %s at %s port %s\n", conn_.buffer.name.c_str(),
+                            conn_.buffer.host.c_str(), port.c_str());
         return fd_ >= 0;
     }
 
@@ -223,7 +241,10 @@ private:
         if (logins.empty()) { rcs_print_error("NML: %s\n", problem.c_str()); return false; }
         std::string name = logins[0].name.substr(0, 16);
         std::vector<unsigned char> body(16), keys(20), result(8);
-        std::copy(conn_.buffer.name.begin(), conn_.buffer.name.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(16, conn_.buffer.name.size())), body.begin());
+        std::copy(conn_.buffer.name.begin(),
+                  conn_.buffer.name.begin() +
+                      static_cast<std::ptrdiff_t>(std::min<size_t>(16, conn_.buffer.name.size())),
+                  body.begin());
         if (exchange(REQ_GET_KEYS, 0, 0, body, keys.data(), keys.size()) != CMS_STATUS_NOT_SET) return false;
         std::string answer = hmac(logins[0].password, std::string(keys.begin() + 4, keys.end()) + name).substr(0, 16);
         body.assign(32, 0);
@@ -246,6 +267,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<Transport> open_tcp(const Connection &c, const MessageSet &set) { return std::make_unique<Tcp>(c, set); }
+std::unique_ptr<Transport> open_tcp(const Connection &c, const MessageSet &set) {
+    return std::make_unique<Tcp>(c, set);
+}
 
 } // namespace nml

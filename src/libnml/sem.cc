@@ -57,7 +57,9 @@ int RCS_SEMAPHORE::wait() {
     int r = take(IPC_NOWAIT, -1);
     if (r == -EAGAIN && timeout_ns_ != 0) {
         if (timeout_ns_ > 0 && kerf_clock_is_virtual()) {
-            r = kerf_clock_wait([](void *me) { return static_cast<int>(static_cast<RCS_SEMAPHORE *>(me)->trywait() == 0); }, this, LOOK_NS, timeout_ns_);
+            r = kerf_clock_wait(
+                [](void *me) { return static_cast<int>(static_cast<RCS_SEMAPHORE *>(me)->trywait() == 0); }, this,
+                LOOK_NS, timeout_ns_);
         } else {
             kerf_clock_suspend(); // who posts may run meanwhile
             r = take(0, timeout_ns_);

@@ -78,7 +78,8 @@ int64_t kerf_clock_now_ns(void)
 
 int kerf_clock_sleep_until_ns(int64_t when_ns)
 {
-    if (kerf_clock_is_virtual()) return vclock_sleep_until(when_ns, vclock_joined() ? NULL : getenv(KERF_CLOCK_SLOT_ENV));
+    if (kerf_clock_is_virtual())
+        return vclock_sleep_until(when_ns, vclock_joined() ? NULL : getenv(KERF_CLOCK_SLOT_ENV));
     struct timespec t = {when_ns / 1000000000, when_ns % 1000000000};
     return when_ns > 0 ? -clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, NULL) : 0;
 }

@@ -56,11 +56,26 @@ static inline rtapi_u8 rtapi_parport_ecr_read(rtapi_parport_t *port)
 {
     return port->simulated ? port->memory[RTAPI_PARPORT_REGISTERS - 1] : rtapi_inb(port->base_hi + 2);
 }
-static inline void rtapi_parport_data_write(rtapi_parport_t *port, rtapi_u8 value) { rtapi_parport_out(port, 0, value); }
-static inline void rtapi_parport_status_write(rtapi_parport_t *port, rtapi_u8 value) { rtapi_parport_out(port, 1, value); }
-static inline void rtapi_parport_control_write(rtapi_parport_t *port, rtapi_u8 value) { rtapi_parport_out(port, 2, value); }
-static inline void rtapi_parport_epp_addr_write(rtapi_parport_t *port, rtapi_u8 value) { rtapi_parport_out(port, 3, value); }
-static inline void rtapi_parport_epp_data_writeb(rtapi_parport_t *port, rtapi_u8 value) { rtapi_parport_out(port, 4, value); }
+static inline void rtapi_parport_data_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_parport_out(port, 0, value);
+}
+static inline void rtapi_parport_status_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_parport_out(port, 1, value);
+}
+static inline void rtapi_parport_control_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_parport_out(port, 2, value);
+}
+static inline void rtapi_parport_epp_addr_write(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_parport_out(port, 3, value);
+}
+static inline void rtapi_parport_epp_data_writeb(rtapi_parport_t *port, rtapi_u8 value)
+{
+    rtapi_parport_out(port, 4, value);
+}
 static inline void rtapi_parport_epp_data_writel(rtapi_parport_t *port, rtapi_u32 value)
 {
     if (port->simulated) {

@@ -9,7 +9,8 @@ bool hal_number(const char *name, double *value) {
     hal_type_t type;
     hal_data_u *data = nullptr;
     bool connected;
-    if (hal_get_pin_value_by_name(name, &type, &data, &connected) != 0 && hal_get_signal_value_by_name(name, &type, &data, &connected) != 0 &&
+    if (hal_get_pin_value_by_name(name, &type, &data, &connected) != 0 &&
+        hal_get_signal_value_by_name(name, &type, &data, &connected) != 0 &&
         hal_get_param_value_by_name(name, &type, &data) != 0)
         return false;
     switch (type) {

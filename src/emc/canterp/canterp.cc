@@ -91,7 +91,8 @@ int Canterp::wrong(const canterp::Mistake &mistake)
 int Canterp::take(std::string_view fresh)
 {
     Setup &s = setup();
-    while (!fresh.empty() && (fresh.back() == '\r' || fresh.back() == ' ' || fresh.back() == '\t')) fresh.remove_suffix(1);
+    while (!fresh.empty() && (fresh.back() == '\r' || fresh.back() == ' ' || fresh.back() == '\t'))
+        fresh.remove_suffix(1);
     text = fresh;
     s.block.clear();
     s.raw_length = int(fresh.copy(s.raw, sizeof s.raw - 1));
@@ -159,7 +160,8 @@ int Canterp::restore_from_tag(const state_tag_t &tag)
     int g[ACTIVE_G_CODES], m[ACTIVE_M_CODES];
     double settings[ACTIVE_SETTINGS];
     if (!active_modes(g, m, settings, tag)) return INTERP_OK;
-    if (g[5] != (s.units == CANON_UNITS_INCHES ? G_20 : G_21) && convert_units(s, g[5]) > INTERP_MIN_ERROR) return INTERP_ERROR;
+    if (g[5] != (s.units == CANON_UNITS_INCHES ? G_20 : G_21) && convert_units(s, g[5]) > INTERP_MIN_ERROR)
+        return INTERP_ERROR;
     if (convert_plane(s, g[3]) > INTERP_MIN_ERROR) return INTERP_ERROR;
     s.feed_mode = g[7] == G_95 ? UNITS_PER_REVOLUTION : UNITS_PER_MINUTE;
     s.canon.SET_FEED_MODE(0, g[7] == G_95);

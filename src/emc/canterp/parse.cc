@@ -64,10 +64,12 @@ class Reader
                 name = "WAIT_SPINDLE_ORIENT_COMPLETE";
             }
         }
-        if (name.empty()) return wrong(start, 1, "There is no canonical call on this line", "known calls: " + known_calls());
+        if (name.empty())
+            return wrong(start, 1, "There is no canonical call on this line", "known calls: " + known_calls());
         const Call *call = find_call(name);
         if (!call)
-            return wrong(start, at - start, "Unknown canonical call '" + name + "'" + nearest_call(name), "known calls: " + known_calls());
+            return wrong(start, at - start, "Unknown canonical call '" + name + "'" + nearest_call(name),
+                         "known calls: " + known_calls());
         blanks();
         if (at_end() || peek() != '(') return wrong(at, 1, "'(' is missing behind " + name, form(*call));
         ++at;
@@ -78,7 +80,8 @@ class Reader
             return false;
         }
         blanks();
-        if (!at_end() && peek() != ';') return wrong(at, text.size() - at, "Nothing may stand behind the call", form(*call));
+        if (!at_end() && peek() != ';')
+            return wrong(at, text.size() - at, "Nothing may stand behind the call", form(*call));
         line->call = call;
         return true;
     }
@@ -158,7 +161,8 @@ class Reader
     bool take_text(const Call &call)
     {
         const size_t close = text.rfind(')');
-        if (close == text.npos || close < at) return wrong(text.size() ? text.size() - 1 : 0, 1, "')' is missing at the end", form(call));
+        if (close == text.npos || close < at)
+            return wrong(text.size() ? text.size() - 1 : 0, 1, "')' is missing at the end", form(call));
         size_t first = at, end = close;
         if (*call.arguments == 't') {
             if (end < first + 2 || text[first] != '"' || text[end - 1] != '"')
@@ -181,7 +185,8 @@ class Reader
             }
             const size_t start = at;
             while (!at_end() && !is_blank(peek()) && peek() != ',' && peek() != ')') ++at;
-            if (at == start) return wrong(start, 1, at_end() ? "')' is missing at the end" : "A value is missing", form(call));
+            if (at == start)
+                return wrong(start, 1, at_end() ? "')' is missing at the end" : "A value is missing", form(call));
             const size_t sign = text.substr(start, at - start).find('='); // type=1
             const size_t value = sign == text.npos ? start : start + sign + 1;
             tokens.push_back({value, std::string(text.substr(value, at - value))});
@@ -201,7 +206,8 @@ class Reader
             if (!way[count]) break;
             way += count + 1;
         }
-        return wrong(start, at - start, std::string(call.name) + " has not " + std::to_string(tokens.size()) + " values", form(call));
+        return wrong(start, at - start,
+                     std::string(call.name) + " has not " + std::to_string(tokens.size()) + " values", form(call));
     }
 
     bool value(const Call &call, char kind, const Token &token)
@@ -210,7 +216,8 @@ class Reader
         for (const Word &w : words)
             if (w.kind == kind && t == w.name) return line->arguments.v.push_back(w.value), true;
         const auto bad = [&](const std::string &wanted) {
-            return wrong(token.at, t.empty() ? 1 : t.size(), std::string(call.name) + ": '" + t + "' is not " + wanted, form(call));
+            return wrong(token.at, t.empty() ? 1 : t.size(), std::string(call.name) + ": '" + t + "' is not " + wanted,
+                         form(call));
         };
         if (strchr("UPMRSA", kind)) return bad("one of " + word_list(kind, " "));
         double number = 0;
@@ -220,7 +227,8 @@ class Reader
         if (number != std::floor(number) || std::fabs(number) > MOST_INTEGER) return bad("an integer");
         if (kind == 'b' && number != 0 && number != 1) return bad("0 or 1");
         if (kind == 'g' && (number < 1 || number > 9)) return bad("a coordinate system from 1 (G54) to 9 (G59.3)");
-        if (kind == 's' && (number < 0 || number >= spindles)) return bad("a spindle of this machine, 0 to " + std::to_string(spindles - 1));
+        if (kind == 's' && (number < 0 || number >= spindles))
+            return bad("a spindle of this machine, 0 to " + std::to_string(spindles - 1));
         if (kind == 'i' && number < 0) return bad("an integer from 0 on");
         return line->arguments.v.push_back(number), true;
     }

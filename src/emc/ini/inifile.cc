@@ -103,7 +103,11 @@ bool utf8_ok(std::string_view s)
 {
     for (size_t i = 0; i < s.size();) {
         unsigned char c = s[i];
-        int more = c < 0x80 ? 0 : c >= 0xC2 && c < 0xE0 ? 1 : c >= 0xE0 && c < 0xF0 ? 2 : c >= 0xF0 && c < 0xF5 ? 3 : -1;
+        int more = c < 0x80                ? 0
+                   : c >= 0xC2 && c < 0xE0 ? 1
+                   : c >= 0xE0 && c < 0xF0 ? 2
+                   : c >= 0xF0 && c < 0xF5 ? 3
+                                           : -1;
         if (more < 0 || i + more >= s.size() + (more == 0)) return false;
         uint32_t point = more == 0 ? c : c & (0x3F >> more);
         for (int k = 1; k <= more; k++) {
@@ -280,7 +284,8 @@ bool Parser::include(std::string_view rest)
         return error("Maximum include depth (%zu) reached on loading '%s'", MAX_INCLUDE_STACK, name.c_str());
     const size_t depth = stack.size();
     if (parse_file(name)) return true;
-    if (stack.size() == depth) report("%s:%d: error: it is included here", stack.back().c_str(), lines.back()); // never opened
+    if (stack.size() == depth)
+        report("%s:%d: error: it is included here", stack.back().c_str(), lines.back()); // never opened
     return false;
 }
 
@@ -294,7 +299,8 @@ bool Parser::name_ok(const char *kind, const std::string &name)
     if (!identifier_ok(plain)) return false;
     // Documented ones need no warning: sections of drivers, and the pendant's buttons.
     if (name == "XHC-HB04" || name == "VFD-B" || current == "XHC_HB04_BUTTONS") return true;
-    warning("Unusual %s '%s': letters, digits and underscores, no digit first, are understood everywhere", kind, name.c_str());
+    warning("Unusual %s '%s': letters, digits and underscores, no digit first, are understood everywhere", kind,
+            name.c_str());
     return true;
 }
 
@@ -304,7 +310,8 @@ bool Parser::section(std::string_view text)
     if (close == text.npos) return error("Invalid section. Missing ']'");
     std::string name(trimmed(text.substr(1, close - 1)));
     if (name.empty()) return error("Invalid section. No content between '[' and ']'");
-    if (!name_ok("section", name)) return error("Invalid section '%s'. Identifier contains invalid character(s)", name.c_str());
+    if (!name_ok("section", name))
+        return error("Invalid section '%s'. Identifier contains invalid character(s)", name.c_str());
     std::string_view rest = trimmed(text.substr(close + 1));
     if (!rest.empty() && rest[0] != '#' && rest[0] != ';') warning("Section header has trailing content, ignored");
     if (std::find(out.sections.begin(), out.sections.end(), name) != out.sections.end())
@@ -321,7 +328,8 @@ bool Parser::variable(std::string_view text)
     std::string name(trimmed(text.substr(0, equals)));
     if (equals == text.npos) return error("Invalid tag '%s'. Expected '=' after tag identifier", name.c_str());
     if (name.empty()) return error("Invalid tag. Missing identifier before '='");
-    if (!name_ok("tag", name)) return error("Invalid tag name '%s'. Identifier contains invalid character(s)", name.c_str());
+    if (!name_ok("tag", name))
+        return error("Invalid tag name '%s'. Identifier contains invalid character(s)", name.c_str());
     if (current.empty()) return error("Tag '%s' found without prior section definition", name.c_str());
     std::string value;
     if (!unescape(trimmed(text.substr(equals + 1)), value)) return false;

@@ -176,19 +176,22 @@ int print_all(const IniFile &ini, const Options &o)
     switch (o.type) {
     case 'i': {
         int64_t min = INT64_MIN, max = INT64_MAX;
-        if (!limits(o, min, max, IniFile::convertSInt)) return fail(BAD_VALUE, "Invalid range [%s,%s]", o.min.c_str(), o.max.c_str());
+        if (!limits(o, min, max, IniFile::convertSInt))
+            return fail(BAD_VALUE, "Invalid range [%s,%s]", o.min.c_str(), o.max.c_str());
         for (auto v : ini.findSIntAll(o.var, o.sec, min, max)) lines.push_back(std::to_string(v));
         break;
     }
     case 'u': {
         uint64_t min = 0, max = UINT64_MAX;
-        if (!limits(o, min, max, IniFile::convertUInt)) return fail(BAD_VALUE, "Invalid range [%s,%s]", o.min.c_str(), o.max.c_str());
+        if (!limits(o, min, max, IniFile::convertUInt))
+            return fail(BAD_VALUE, "Invalid range [%s,%s]", o.min.c_str(), o.max.c_str());
         for (auto v : ini.findUIntAll(o.var, o.sec, min, max)) lines.push_back(std::to_string(v));
         break;
     }
     case 'r': {
         double max = std::numeric_limits<double>::max(), min = -max;
-        if (!limits(o, min, max, IniFile::convertReal)) return fail(BAD_VALUE, "Invalid range [%s,%s]", o.min.c_str(), o.max.c_str());
+        if (!limits(o, min, max, IniFile::convertReal))
+            return fail(BAD_VALUE, "Invalid range [%s,%s]", o.min.c_str(), o.max.c_str());
         for (auto v : ini.findRealAll(o.var, o.sec, min, max)) {
             snprintf(buf, sizeof buf, "%.15g", v);
             lines.push_back(buf);
@@ -259,7 +262,8 @@ int main(int argc, char **argv)
             o.type = 0;
             for (auto &t : types)
                 if (t.letter == letter) o.type = letter;
-            if (!o.type) return fail(USAGE, "Invalid type '%s': expected int, unsigned, real, string or boolean", optarg);
+            if (!o.type)
+                return fail(USAGE, "Invalid type '%s': expected int, unsigned, real, string or boolean", optarg);
             o.type_given = true;
             break;
         }

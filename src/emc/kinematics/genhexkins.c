@@ -41,7 +41,8 @@ static int make_pins(int id, const char *prefix)
     int r = 0;
     for (int i = 0; i < STRUTS; i++)
         for (int k = 0; k < 3; k++) {
-            r |= hal_pin_new_real(id, HAL_IN, &pins->base[i][k], base_initial[i][k], "%s.base.%d.%c", prefix, i, xyz[k]);
+            r |= hal_pin_new_real(id, HAL_IN, &pins->base[i][k], base_initial[i][k],
+                                  "%s.base.%d.%c", prefix, i, xyz[k]);
             r |= hal_pin_new_real(id, HAL_IN, &pins->platform[i][k], platform_initial[i][k], "%s.platform.%d.%c",
                                   prefix, i, xyz[k]);
             r |= hal_pin_new_real(id, HAL_IN, &pins->base_n[i][k], base_n_initial[i][k], "%s.base-n.%d.%c", prefix, i,

@@ -18,7 +18,8 @@ template <int Max> using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen
 int solve(int rows, int cols, const double *a, const double *b, double *x)
 {
     if (rows < 1 || cols < 1 || rows > 9 || cols > 9) return -1;
-    Matrix<9> m = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(a, rows, cols);
+    Matrix<9> m =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(a, rows, cols);
     Vector<9> rhs = Eigen::Map<const Eigen::VectorXd>(b, rows);
     if (!m.allFinite() || !rhs.allFinite()) return -1;
     Eigen::ColPivHouseholderQR<Matrix<9>> qr;

@@ -60,7 +60,9 @@ static inline int rotarydelta_thigh(const struct rotarydelta *g, double x, doubl
 {
     if (z == 0.0)
         return -1;
-    double a = (x * x + (y - g->fr) * (y - g->fr) + z * z + g->tl * g->tl - g->sl * g->sl - g->pfr * g->pfr) / (2.0 * z);
+    double a = (x * x + (y - g->fr) * (y - g->fr) + z * z + g->tl * g->tl - g->sl * g->sl -
+                g->pfr * g->pfr) /
+               (2.0 * z);
     double b = (g->fr - g->pfr - y) / z;
     double d = g->tl * g->tl * (b * b + 1.0) - (a - b * g->pfr) * (a - b * g->pfr);
     if (!(d >= 0.0))

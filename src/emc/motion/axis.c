@@ -174,7 +174,8 @@ static int limit_is_met(const struct motion *m)
 
 /* 1 when any homed joint at q is farther outside its limits than it is now, by more than eps. (No joint may go out
  * for another one that comes in.) A stop is known to a part of a cycle's acceleration, with limited jerk to some cycles
- * of jerk: where the planner of the axis knows the joint's limit it sees to the rest, elsewhere that much is kept free. */
+ * of jerk: where the planner of the axis knows the joint's limit it sees to the rest,
+ * elsewhere that much is kept free. */
 int joints_go_outside(const struct motion *m, const double *q, double eps)
 {
     double T = m->traj_period;
@@ -202,7 +203,8 @@ static void on_way_to_stop(const struct motion *m, const simple_tp_t *tp, double
     for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
         const simple_tp_t *p = &tp[2 * n], *e = p + 1;
         *emcPoseAxis(way, n) = p->curr_pos + e->curr_pos +
-                               beyond * (simple_tp_stop_way(p, m->traj_period, t) + simple_tp_stop_way(e, m->traj_period, t));
+                               beyond * (simple_tp_stop_way(p, m->traj_period, t) +
+                                         simple_tp_stop_way(e, m->traj_period, t));
     }
 }
 
@@ -253,7 +255,8 @@ static int turns_outside(struct motion *m, double q[4][EMCMOT_MAX_JOINTS])
     double turns[2][EMCMOT_MAX_JOINTS], T = m->traj_period;
     for (int j = 0; j < EMCMOT_MAX_JOINTS; j++) {
         double places[4] = {q[0][j], q[1][j], q[2][j], q[3][j]}, outmost[2];
-        double lo = fmin(q[0][j], q[3][j]), hi = fmax(q[0][j], q[3][j]), rounding = TURN_ACC_PART * m->joint[j].acc_limit * T * T;
+        double lo = fmin(q[0][j], q[3][j]), hi = fmax(q[0][j], q[3][j]),
+               rounding = TURN_ACC_PART * m->joint[j].acc_limit * T * T;
         turning_points(places, outmost);
         for (int i = 0; i < 2; i++)
             turns[i][j] = outmost[i] > hi + rounding || outmost[i] < lo - rounding ? outmost[i] : q[3][j];
@@ -292,7 +295,8 @@ static __attribute__((noinline)) int stop_leaves(struct motion *m, const simple_
 }
 
 /* 1 when the axes, stopped from now on (with other parts of their limits, if any), come to rest at a place the joints
- * can be at, over places they can be at, and not so near the edge of what can be reached that they could not brake there. */
+ * can be at, over places they can be at, and not so near the edge of what can be reached that
+ * they could not brake there. */
 static int stop_is_reachable(struct motion *m, const struct teleop_scale *scale)
 {
     simple_tp_t tp[PLANNERS];
@@ -393,7 +397,8 @@ static int find_joint_limit(struct motion *m)
         return 0;
     struct axis *a = &m->axis[n];
     const simple_tp_t *p = &a->teleop_tp;
-    double T = m->traj_period, dir = p->curr_vel != 0.0 ? copysign(1.0, p->curr_vel) : copysign(1.0, p->pos_cmd - p->curr_pos);
+    double T = m->traj_period, dir = p->curr_vel != 0.0 ? copysign(1.0, p->curr_vel)
+                                                        : copysign(1.0, p->pos_cmd - p->curr_pos);
     double in = p->curr_pos + simple_tp_stop_distance(p, T);
     double out = in + dir * AHEAD_CYCLES * (fabs(p->curr_vel) + a->acc_limit * T) * T;
     if (isfinite(dir > 0.0 ? a->joint_hi : a->joint_lo) || !joints_inside_at(m, n, in) || joints_inside_at(m, n, out))

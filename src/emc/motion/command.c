@@ -28,7 +28,8 @@ static void tell_atspeed_wait(M *m)
     if (m->tp.spindle.waiting_for_atspeed < 0)
         return;
     for (int s = 0; s < m->config_work.numSpindles; s++)
-        if (m->status->spindle_status[s].state == 0 && !m->status->spindle_status[s].rests && !m->status->spindle_status[s].at_speed) {
+        if (m->status->spindle_status[s].state == 0 && !m->status->spindle_status[s].rests &&
+            !m->status->spindle_status[s].at_speed) {
             report_error("Aborted while waiting for spindle %d at-speed after a spindle stop. "
                          "Check that spindle.%d.at-speed is connected and goes true once the spindle has stopped.",
                          s, s);

@@ -45,7 +45,8 @@ void cmd_set_spindlesync(M *m, C *c) { tpSetSpindleSync(&m->tp, c->spindle, c->s
 /* An order that a spindle obeys already: what waited for its speed has done so. */
 static int same_order(const spindle_status_t *s, C *c)
 {
-    return s->state && c->state && s->speed == limit_speed(s, c->vel) && s->css_factor == c->ini_maxvel && s->xoffset == c->acc;
+    return s->state && c->state && s->speed == limit_speed(s, c->vel) &&
+           s->css_factor == c->ini_maxvel && s->xoffset == c->acc;
 }
 
 void cmd_spindle_on(M *m, C *c)
@@ -68,8 +69,9 @@ void cmd_spindle_on(M *m, C *c)
         sp->state = c->state;
         sp->speed = limit_speed(sp, c->vel);
         if (c->vel != 0.0 && sp->speed == 0.0 && c->state)
-            report_error("spindle %d stays at rest: its limit in this direction is 0 rpm ([SPINDLE_%d]MAX_%s_VELOCITY)", s, s,
-                         c->vel > 0.0 ? "FORWARD" : "REVERSE");
+            report_error("spindle %d stays at rest: its limit in this direction is 0 rpm "
+                         "([SPINDLE_%d]MAX_%s_VELOCITY)",
+                         s, s, c->vel > 0.0 ? "FORWARD" : "REVERSE");
         sp->css_factor = c->ini_maxvel;
         sp->xoffset = c->acc;
         if (c->state) {

@@ -74,7 +74,8 @@ static struct joint_limits comp_limits(const emcmot_joint_t *jt)
 {
     struct joint_limits l = {0.0, SHARE * jt->acc_limit, SHARE * jt->jerk_limit};
     /* a way s from rest to rest never gets faster than sqrt(s a) */
-    l.vel = fmin(MOST_VEL * jt->vel_limit, sqrt(jt->comp.swing * l.acc) + SLOPE_MARGIN * jt->comp.slope * jt->vel_limit);
+    l.vel = fmin(MOST_VEL * jt->vel_limit,
+                 sqrt(jt->comp.swing * l.acc) + SLOPE_MARGIN * jt->comp.slope * jt->vel_limit);
     return l;
 }
 
@@ -180,6 +181,7 @@ void phase_compensation(struct motion *m)
         }
         wanted_correction(jt, m->servo_period);
         if (jt->comp.shared)
-            approach(jt, get_homing(j) ? 1.0 : m->status->net_feed_scale, m->servo_period); /* no override slows homing */
+            approach(jt, get_homing(j) ? 1.0 : m->status->net_feed_scale,
+                     m->servo_period); /* no override slows homing */
     }
 }

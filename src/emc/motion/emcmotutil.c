@@ -25,7 +25,16 @@ void emcmotErrorInit(emcmot_error_t *err)
 
 /* ---- formats ---- */
 
-enum conversion_kind { CONV_NONE, CONV_INT, CONV_LONG, CONV_LONGLONG, CONV_DOUBLE, CONV_STRING, CONV_PERCENT, CONV_BAD };
+enum conversion_kind {
+    CONV_NONE,
+    CONV_INT,
+    CONV_LONG,
+    CONV_LONGLONG,
+    CONV_DOUBLE,
+    CONV_STRING,
+    CONV_PERCENT,
+    CONV_BAD
+};
 
 struct conversion {
     const char *begin, *end; /* from '%' to behind the letter */

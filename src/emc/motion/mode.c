@@ -334,7 +334,8 @@ static void joint_faults(struct motion *m, int j)
     /* the text for the operator, then what was measured for the log */
     if (!get_homing(j) && (high || low) && joint_fault(m, jt, EMCMOT_STOP_LIMIT, &faults)) {
         report_error("joint %d on limit switch error", j);
-        rtapi_print("motion: joint %d: %s limit switch at position %.5f\n", j, high ? "positive" : "negative", jt->pos_fb);
+        rtapi_print("motion: joint %d: %s limit switch at position %.5f\n", j,
+                    high ? "positive" : "negative", jt->pos_fb);
     }
     if (joint_flag(jt, EMCMOT_JOINT_FAULT_BIT) && joint_fault(m, jt, EMCMOT_STOP_AMPLIFIER, &faults)) {
         report_error("joint %d amplifier fault", j);

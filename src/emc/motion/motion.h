@@ -388,7 +388,8 @@ typedef struct emcmot_status {
     int atspeed_next_feed;
     int external_offsets_applied;
     EmcPose eoffset_pose;
-    int offsets_spare;   /* by the planner, bit n: the move is one to a machine coordinate that axis n's offset must not change */
+    /* by the planner, bit n: the move is one to a machine coordinate that axis n's offset must not change */
+    int offsets_spare;
     int offsets_leave;   /* such an offset is not gone yet: the move has not ended */
     int numExtraJoints;
     int stepping;

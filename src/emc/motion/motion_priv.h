@@ -280,7 +280,8 @@ static inline int leads_out(double target, double from, double lo, double hi)
 }
 int axes_jogging(const struct motion *m);
 int axes_moving(const struct motion *m);
-/* [servo] 1: at q a homed joint would be farther outside its limits (less the rounding of stops) than it is, by eps units. */
+/* [servo] 1: at q a homed joint would be farther outside its limits (less the rounding of stops)
+ * than it is, by eps units. */
 int joints_go_outside(const struct motion *m, const double *q, double eps);
 void axis_teleop_step(struct motion *m, EmcPose *pose);   /* -> positions with offsets */
 /* Speed (units/s, >= 0) that a planner has or cannot avoid any more. */
@@ -300,7 +301,8 @@ void offset_share_find(struct motion *m);
 struct joint_limits offset_share_path(const struct motion *m, int j);
 /* Sets each axis' offset_part so that the joints keep within the rest; path: this cycle's. */
 void offset_share_scale(struct motion *m, const EmcPose *path);
-/* 1: with the path at pose (and the offsets where they can stop) joints get farther out of their limits than they are. */
+/* 1: with the path at pose (and the offsets where they can stop) joints get farther out of their
+ * limits than they are. */
 int offset_share_leaves(struct motion *m, const EmcPose *pose);
 
 void override_status(struct motion *m); /* override.c */

@@ -4,7 +4,8 @@
  *
  * In:     OFFSET_AV_RATIO of the axes (as their limits for offsets), kinematics, limits of the joints
  * Out:    limits of the joints for the planner of the path; parts (0..1] of the offset planners' limits
- * Thread: servo; at most PLACES * (7 + 18) + 2 * (STOP_PLACES + 10) calls of kinematicsInverse, none while no offset moves
+ * Thread: servo; at most PLACES * (7 + 18) + 2 * (STOP_PLACES + 10) calls of kinematicsInverse, none
+ * while no offset moves
  * Method: a joint that offsets of an axis move keeps that axis' ratio of its limits for them; the
  *         path is planned within the rest, less a margin where the Jacobian depends on the place.
  *         While an offset moves, differences of the inverse kinematics give each joint's speed D
@@ -27,7 +28,10 @@
 #define HALF 0.5           /* of a share's acceleration for the motion through curved space */
 #define JERK_PART 0.33     /* of a share's jerk for each of its terms */
 
-static int axis_takes_offsets(const struct axis *a) { return a->ext_offset_vel_limit > 0.0 && a->ext_offset_acc_limit > 0.0; }
+static int axis_takes_offsets(const struct axis *a)
+{
+    return a->ext_offset_vel_limit > 0.0 && a->ext_offset_acc_limit > 0.0;
+}
 
 static int joints_at(struct motion *m, const EmcPose *pose, double *q)
 {
@@ -75,7 +79,9 @@ void offset_share_find(struct motion *m)
             if (moved_by[j] & 1 << n) {
                 const struct axis *a = &m->axis[n];
                 m->offset_axes[j]++;
-                m->offset_share[j] = fmax(m->offset_share[j], a->ext_offset_acc_limit / (a->acc_limit + a->ext_offset_acc_limit));
+                m->offset_share[j] =
+                    fmax(m->offset_share[j],
+                         a->ext_offset_acc_limit / (a->acc_limit + a->ext_offset_acc_limit));
             }
     }
 }
@@ -98,7 +104,8 @@ struct joint_limits offset_share_path(const struct motion *m, int j)
 
 struct moving {
     EmcPose at;                                            /* path and offset */
-    double path[EMCMOT_MAX_AXIS], offset[EMCMOT_MAX_AXIS]; /* units/s: the path's speed; the offsets' full speed, 0 at rest */
+    double path[EMCMOT_MAX_AXIS],
+        offset[EMCMOT_MAX_AXIS]; /* units/s: the path's speed; the offsets' full speed, 0 at rest */
     struct teleop_scale part[EMCMOT_MAX_AXIS];             /* wanted of each axis */
 };
 
@@ -113,7 +120,8 @@ static int joints_after(struct motion *m, const struct moving *w, double a, doub
 
 static double part_of(double limit, double load) { return load > limit * (1.0 + 1e-9) ? limit / load : 1.0; }
 
-/* The axes' own parts: of each joint's share an axis has as much as any other that moves it. -1: an axis comes to the end
+/* The axes' own parts: of each joint's share an axis has as much as any other that moves it.
+ * -1: an axis comes to the end
  * of the kinematics' reach, where joints move without bound for a step. */
 static int straight_parts(struct motion *m, struct moving *w, const double *q)
 {
@@ -142,7 +150,8 @@ static int straight_parts(struct motion *m, struct moving *w, const double *q)
             s->acc = fmin(s->acc, part_of(bend * share * lim.acc, slope * a->ext_offset_acc_limit));
             if (lim.jerk > 0.0)
                 s->jerk = fmin(s->jerk, part_of((bend < 1.0 ? JERK_PART : 1.0) * share * lim.jerk,
-                                                slope * a->jerk_limit * a->ext_offset_acc_limit / (a->acc_limit + a->ext_offset_acc_limit)));
+                                                slope * a->jerk_limit * a->ext_offset_acc_limit /
+                                                    (a->acc_limit + a->ext_offset_acc_limit)));
         }
     }
     return 0;
@@ -229,7 +238,10 @@ void offset_share_scale(struct motion *m, const EmcPose *path)
         const simple_tp_t *e = &m->axis[n].ext_offset_tp;
         int moves = axis_takes_offsets(&m->axis[n]) && (e->curr_vel != 0.0 || (e->enable && e->pos_cmd != e->curr_pos));
         w.path[n] = (emcPoseGetAxis(path, n) - emcPoseGetAxis(&m->path_was, n)) / T;
-        w.offset[n] = !moves ? 0.0 : copysign(m->axis[n].ext_offset_vel_limit, e->curr_vel != 0.0 ? e->curr_vel : e->pos_cmd - e->curr_pos);
+        w.offset[n] = !moves
+                          ? 0.0
+                          : copysign(m->axis[n].ext_offset_vel_limit,
+                                     e->curr_vel != 0.0 ? e->curr_vel : e->pos_cmd - e->curr_pos);
         w.part[n] = (struct teleop_scale){1.0, 1.0, 1.0, 0};
         any |= moves;
     }
@@ -237,9 +249,11 @@ void offset_share_scale(struct motion *m, const EmcPose *path)
         w.at = *path;
         for (int n = 0; n < EMCMOT_MAX_AXIS; n++) {
             const simple_tp_t *e = &m->axis[n].ext_offset_tp;
-            *emcPoseAxis(&w.at, n) += e->curr_pos + i * (AHEAD * simple_tp_stop_distance(e, T) + CYCLES * e->curr_vel * T);
+            *emcPoseAxis(&w.at, n) += e->curr_pos + i * (AHEAD * simple_tp_stop_distance(e, T) +
+                                                         CYCLES * e->curr_vel * T);
         }
-        if (joints_at(m, &w.at, q) != 0 || straight_parts(m, &w, q) != 0 || (i > 0 && farther_out(m, q))) { /* stop before */
+        if (joints_at(m, &w.at, q) != 0 || straight_parts(m, &w, q) != 0 ||
+            (i > 0 && farther_out(m, q))) { /* stop before */
             speed = i > 0 ? 0.0 : speed;
             break;
         }

@@ -79,8 +79,10 @@ static int arc_point_in_range(struct motion *m, const struct path_prim *arc, dou
     return in_range(m, &pose, id, "Circular");
 }
 
-/* The angle near `angle` at which coordinate i of a helix or spiral turns round; side: 1 at its greatest, -1 at its least.
- * There the slope by the angle is 0: amplitude ((spiral / A) cos - r sin) + helix / A, from where a circle turns round. */
+/* The angle near `angle` at which coordinate i of a helix or spiral turns round;
+ * side: 1 at its greatest, -1 at its least.
+ * There the slope by the angle is 0: amplitude ((spiral / A) cos - r sin) + helix / A, from where
+ * a circle turns round. */
 static double turning_angle(const struct path_prim *arc, int i, double angle, int side)
 {
     double amplitude = hypot(arc->ex[i], arc->ey[i]), phi = 0.0;
@@ -167,7 +169,8 @@ static int is_outside(const struct motion *m, const struct place *at, double all
 }
 
 /* May a joint leave its range between two places, where it strays from the chord by up to bend? */
-static int may_leave(const struct motion *m, const struct place *a, const struct place *b, const double *bend, double allowed)
+static int may_leave(const struct motion *m, const struct place *a, const struct place *b,
+                     const double *bend, double allowed)
 {
     for (int j = 0; j < kin_joints(m); j++) {
         const emcmot_joint_t *jt = &m->joint[j];
@@ -179,15 +182,17 @@ static int may_leave(const struct motion *m, const struct place *a, const struct
 }
 
 /* Twice what a parabola through three places, the middle one halfway, strays from the chord of one half. */
-static void find_bend(const struct motion *m, const struct place *a, const struct place *mid, const struct place *b, double *bend)
+static void find_bend(const struct motion *m, const struct place *a, const struct place *mid,
+                      const struct place *b, double *bend)
 {
     for (int j = 0; j < kin_joints(m); j++)
         bend[j] = fabs(a->q[j] - 2.0 * mid->q[j] + b->q[j]) / 4.0;
 }
 
 /* Halves an interval as long as it may leave; 0 when it does, at *bad. *left places may still be looked at. */
-static int refine(struct motion *m, const struct way *w, const struct place *a, const struct place *b, const double *bend,
-                  double allowed, int depth, int *left, double *bad)
+static int refine(struct motion *m, const struct way *w, const struct place *a,
+                  const struct place *b, const double *bend, double allowed, int depth, int *left,
+                  double *bad)
 {
     struct place mid;
     double finer[EMCMOT_MAX_JOINTS];

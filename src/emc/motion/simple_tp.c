@@ -118,7 +118,8 @@ static int allowed(const struct approach *p, double a1)
     double v1 = p->v + 0.5 * (p->a + a1) * p->T;
     if (v1 + a1 * fabs(a1) / (2.0 * p->j) > p->vmax)
         return 0;
-    if (p->v + p->T * (p->a / 3.0 + a1 / 6.0) > fmax(p->vmax, p->v)) /* the cycle's mean; a lowered limit takes its time */
+    if (p->v + p->T * (p->a / 3.0 + a1 / 6.0) >
+        fmax(p->vmax, p->v)) /* the cycle's mean; a lowered limit takes its time */
         return 0;
     double e1 = p->e - p->T * (p->v + p->T * (p->a / 3.0 + a1 / 6.0));
     return stop_reach(v1, a1, p->j, STOP_ACC * p->amax) <= e1;
@@ -171,7 +172,8 @@ static struct stop jerk_limited_stop(const simple_tp_t *tp)
     return stop_of(tp->curr_vel, tp->curr_acc, STOP_JERK * tp->max_jerk, STOP_ACC * tp->max_acc);
 }
 
-/* A stop of a motion whose brake would turn it back (a jog reversed just before): the brake is let off as planned. To go
+/* A stop of a motion whose brake would turn it back (a jog reversed just before): the brake is let
+ * off as planned. To go
  * for the place of the stop would brake harder still, as the motion passes it before it turns. */
 static int turns_back(const simple_tp_t *tp)
 {

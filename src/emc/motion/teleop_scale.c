@@ -97,7 +97,8 @@ static int joints_of(struct motion *m, const EmcPose *from, const struct wanted 
 }
 
 /* Adds what the joints have to do at one place; q: seed, then the joints there. Returns 0, or not. */
-static __attribute__((noinline)) int load_at(struct motion *m, const struct wanted *w, double part, double *q, struct load *load)
+static __attribute__((noinline)) int load_at(struct motion *m, const struct wanted *w, double part,
+                                             double *q, struct load *load)
 {
     const double h = STEP_S;
     double ahead[EMCMOT_MAX_JOINTS], ahead2[EMCMOT_MAX_JOINTS], behind[EMCMOT_MAX_JOINTS], moved[EMCMOT_MAX_JOINTS];

@@ -51,9 +51,14 @@ uint64_t set_rcs_print(const linuxcnc::IniFile &ini) {
     uint64_t debug = ini.findUIntV("DEBUG", "EMC", 0);
     if (auto flags = ini.findUInt("RCS_DEBUG", "EMC")) set_rcs_print_flag(static_cast<uint32_t>(*flags));
     else if (debug & (EMC_DEBUG_RCS | EMC_DEBUG_NML)) set_rcs_print_flag(PRINT_EVERYTHING);
-    if (auto dest = ini.findMap<RCS_PRINT_DESTINATION_TYPE>({{"STDOUT", RCS_PRINT_TO_STDOUT}, {"STDERR", RCS_PRINT_TO_STDERR},
-            {"FILE", RCS_PRINT_TO_FILE}, {"LOGGER", RCS_PRINT_TO_LOGGER}, {"MSGBOX", RCS_PRINT_TO_MESSAGE_BOX}, {"NULL", RCS_PRINT_TO_NULL}},
-            "RCS_DEBUG_DEST", "EMC")) set_rcs_print_destination(*dest);
+    if (auto dest = ini.findMap<RCS_PRINT_DESTINATION_TYPE>({{"STDOUT", RCS_PRINT_TO_STDOUT},
+                                                             {"STDERR", RCS_PRINT_TO_STDERR},
+                                                             {"FILE", RCS_PRINT_TO_FILE},
+                                                             {"LOGGER", RCS_PRINT_TO_LOGGER},
+                                                             {"MSGBOX", RCS_PRINT_TO_MESSAGE_BOX},
+                                                             {"NULL", RCS_PRINT_TO_NULL}},
+                                                            "RCS_DEBUG_DEST", "EMC"))
+        set_rcs_print_destination(*dest);
     max_rcs_errors_to_print = ini.findIntV("RCS_MAX_ERR", "EMC", -1);
     return debug;
 }

@@ -59,25 +59,33 @@ struct Row {
     template <class T> void operator()(const nml::Field &f, const T &v) {
         any = true;
         std::string attribute = f.attribute;
-        printf("| | | `%s` | %s | %s | %s |\n", f.name, wire_name(v).c_str(), attribute.empty() ? "" : ("`" + attribute + "`").c_str(), f.doc);
+        printf("| | | `%s` | %s | %s | %s |\n", f.name, wire_name(v).c_str(),
+               attribute.empty() ? "" : ("`" + attribute + "`").c_str(), f.doc);
     }
 };
 
 template <class T> void document(const char *name) {
     T sample;
-    printf("| %s | %d | | %s | | |\n", name, sample._type, std::is_base_of_v<RCS_CMD_MSG, T> ? "command" : std::is_base_of_v<RCS_STAT_MSG, T> ? "status" : "message");
+    printf("| %s | %d | | %s | | |\n", name, sample._type,
+           std::is_base_of_v<RCS_CMD_MSG, T>    ? "command"
+           : std::is_base_of_v<RCS_STAT_MSG, T> ? "status"
+                                                : "message");
     Row row;
     T::fields(row, sample);
 }
 
 void docs() {
-    printf("<!-- Made by `objects/test/nml-describe docs` from src/emc/nml/messages.def; do not edit. -->\n"
-           "# NML messages\n\n"
-           "Fields stand in wire order. Commands begin with `int32 serial_number`; status structures with `int32 command_type,\n"
-           "echo_serial_number, status, _state`. A pose is nine doubles x y z a b c u v w, an xyz three. mu = machine units.\n"
-           "The attribute is that of Python's `linuxcnc.stat`, or the key in its `joint`, `axis` and `spindle` dicts.\n\n"
-           "A new message is one entry in `messages.def`: struct, wire coding, symbol, this page and the Python attribute follow.\n\n"
-           "| message | number | field | type | attribute | meaning |\n| --- | --- | --- | --- | --- | --- |\n");
+    printf(
+        "<!-- Made by `objects/test/nml-describe docs` from src/emc/nml/messages.def; do not edit. -->\n"
+        "# NML messages\n\n"
+        "Fields stand in wire order. Commands begin with `int32 serial_number`; status structures with `int32 "
+        "command_type,\n"
+        "echo_serial_number, status, _state`. A pose is nine doubles x y z a b c u v w, an xyz three. mu = machine "
+        "units.\n"
+        "The attribute is that of Python's `linuxcnc.stat`, or the key in its `joint`, `axis` and `spindle` dicts.\n\n"
+        "A new message is one entry in `messages.def`: struct, wire coding, symbol, this page and the Python attribute "
+        "follow.\n\n"
+        "| message | number | field | type | attribute | meaning |\n| --- | --- | --- | --- | --- | --- |\n");
 #define F(...)
 #define S(...)
 #define L(...)

@@ -91,7 +91,8 @@ class CallbackCanon final : public PreviewCanon
         units_per_degree = exact_float(c, "get_external_angular_units");
         mask = canon.attr("get_axis_mask")().cast<int>();
         get_tool = canon.attr("get_tool");
-        parameter_name = py::hasattr(c, "parameter_file") ? c.attr("parameter_file").cast<std::string>() : "rs274ngc.var";
+        parameter_name =
+            py::hasattr(c, "parameter_file") ? c.attr("parameter_file").cast<std::string>() : "rs274ngc.var";
     }
     Interp *interp = nullptr;
 
@@ -139,7 +140,8 @@ class CallbackCanon final : public PreviewCanon
     {
         if (rows.empty()) return;
         if (in_batch)
-            throw std::runtime_error("gcode.parse: the move batch belongs to a different canon - gcode.parse was re-entered");
+            throw std::runtime_error(
+                "gcode.parse: the move batch belongs to a different canon - gcode.parse was re-entered");
         in_batch = true;
         py::memoryview view = py::memoryview::from_memory(static_cast<const void *>(rows.data()),
                                                           Py_ssize_t(rows.size() * sizeof(double)));
@@ -308,7 +310,9 @@ void check_abort(const py::object &canon, time_t *last)
 
 } // namespace
 
-std::string last_error(int code) { return code == INTERP_FILE_NOT_OPEN ? "File not open" : code == INTERP_ERROR ? saved_error : ""; }
+std::string last_error(int code) {
+    return code == INTERP_FILE_NOT_OPEN ? "File not open" : code == INTERP_ERROR ? saved_error : "";
+}
 
 py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
                                const std::vector<std::string> &init_codes, const std::string &library)
@@ -322,7 +326,8 @@ py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
     int status = INTERP_OK, extra = 0;
     try {
         status = interp->init(InterpOptions::from_environment());
-        if (status <= INTERP_MIN_ERROR && interp->open(file.c_str()) != INTERP_OK) saved_error = interp->error_text(INTERP_ERROR);
+        if (status <= INTERP_MIN_ERROR && interp->open(file.c_str()) != INTERP_OK)
+            saved_error = interp->error_text(INTERP_ERROR);
         for (size_t i = 0; i < init_codes.size() && status <= INTERP_MIN_ERROR; ++i) {
             if (init_codes[i].empty()) continue;
             canon.take_codes();

@@ -35,7 +35,8 @@ py::object view(const py::object &owner, const void *data, const char *format, s
 py::object box_value(const Box &b)
 {
     if (b.empty()) return py::make_tuple(py::make_tuple(0.0, 0.0, 0.0), py::make_tuple(0.0, 0.0, 0.0));
-    return py::make_tuple(py::make_tuple(b.low[0], b.low[1], b.low[2]), py::make_tuple(b.high[0], b.high[1], b.high[2]));
+    return py::make_tuple(py::make_tuple(b.low[0], b.low[1], b.low[2]),
+                          py::make_tuple(b.high[0], b.high[1], b.high[2]));
 }
 
 std::vector<std::string> text_list(const py::object &codes)
@@ -265,8 +266,10 @@ void bind_program(py::module_ &m)
                             "((x,y,z) least, (x,y,z) greatest) of the controlled point.");
     c.def_property_readonly("extents_tool", [](const ProgramPath &p) { return box_value(p.extents); },
                             "The same with the tool offset added.");
-    c.def_property_readonly("extents_zero_rxy", [](const ProgramPath &p) { return box_value(p.extents_notool_unrotated); });
-    c.def_property_readonly("extents_tool_zero_rxy", [](const ProgramPath &p) { return box_value(p.extents_unrotated); });
+    c.def_property_readonly("extents_zero_rxy",
+                            [](const ProgramPath &p) { return box_value(p.extents_notool_unrotated); });
+    c.def_property_readonly("extents_tool_zero_rxy",
+                            [](const ProgramPath &p) { return box_value(p.extents_unrotated); });
     c.def_property_readonly("tools", [](const ProgramPath &p) {
         py::list l;
         for (const auto &[vertex, tool] : p.tool_changes) l.append(py::make_tuple(vertex, tool));
@@ -285,7 +288,8 @@ void bind_program(py::module_ &m)
     c.def_readonly("error", &ProgramPath::error);
     c.def_readonly("aborted", &ProgramPath::aborted);
     c.def_readonly("thinned", &ProgramPath::thinned, "1, or n when about every n-th piece was kept.");
-    c.def_readonly("foam_z", &ProgramPath::foam_z, "Height of the XY plane of a foam cutter that the program gave, inches, or None.");
+    c.def_readonly("foam_z", &ProgramPath::foam_z,
+                   "Height of the XY plane of a foam cutter that the program gave, inches, or None.");
     c.def_readonly("foam_w", &ProgramPath::foam_w, "Height of its UV plane.");
     c.def_readonly("notify", &ProgramPath::notify);
     c.def_readonly("notify_message", &ProgramPath::notify_message);
@@ -323,7 +327,8 @@ PYBIND11_MODULE(gcode, m)
           py::arg("cy"), py::arg("rot"), py::arg("z1"), py::arg("a"), py::arg("b"), py::arg("c"), py::arg("u"),
           py::arg("v"), py::arg("w"), py::arg("max_segments") = 128);
     m.def("calc_extents", &calc_extents,
-          "calc_extents(moves, ...) -> min, max, min with tool, max with tool; moves: (line, start, end, [feed,] offset)");
+          "calc_extents(moves, ...) -> min, max, min with tool, max with tool; moves: (line, start, end, [feed,] "
+          "offset)");
     m.def("load", &load, py::arg("filename"), py::arg("parameter_file") = "", py::arg("initcodes") = py::none(),
           py::arg("tools") = py::none(), py::arg("axis_mask") = 0x1ff, py::arg("linear_units") = 1.0,
           py::arg("angular_units") = 1.0, py::arg("ini") = "", py::arg("arc_division") = 64,

@@ -120,8 +120,8 @@ namespace
 
 // Rational B-spline with knots t (count + order of them); u inside the knot range.
 // De Boor's recursion on homogeneous coordinates.
-template <class At> void spline_at(const std::vector<double> &t, unsigned order, size_t count, double u, At at, double *x, double *y)
-{
+template <class At>
+void spline_at(const std::vector<double> &t, unsigned order, size_t count, double u, At at, double *x, double *y) {
     const size_t degree = order - 1;
     size_t k = degree;
     while (k + 1 < count && t[k + 1] <= u) ++k;

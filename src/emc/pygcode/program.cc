@@ -174,7 +174,9 @@ class PathCanon final : public PreviewCanon
     }
     void on_comment(const char *text) override
     {
-        const char *rest = strncmp(text, "AXIS,", 5) == 0 ? text + 5 : strncmp(text, "PREVIEW,", 8) == 0 ? text + 8 : nullptr;
+        const char *rest = strncmp(text, "AXIS,", 5) == 0      ? text + 5
+                           : strncmp(text, "PREVIEW,", 8) == 0 ? text + 8
+                                                               : nullptr;
         if (!rest) return;
         const std::string command(rest, strcspn(rest, ","));
         if (command == "stop") stop = true;
@@ -215,7 +217,8 @@ class PathCanon final : public PreviewCanon
         size_t to = 0;
         bool odd = false;
         for (size_t i = 0, next = 0; i < path.points.size(); ++i) {
-            while (next < path.tool_changes.size() && path.tool_changes[next].first <= i) path.tool_changes[next++].first = uint32_t(to);
+            while (next < path.tool_changes.size() && path.tool_changes[next].first <= i)
+                path.tool_changes[next++].first = uint32_t(to);
             const bool ends = i + 1 == path.points.size() || path.kinds[i + 1] != path.kinds[i];
             odd = !odd;
             if (path.kinds[i] != uint8_t(PathKind::JUMP) && !ends && odd) continue;
@@ -232,7 +235,8 @@ class PathCanon final : public PreviewCanon
     {
         if (options.max_vertices && path.points.size() >= options.max_vertices) thin();
         // A piece that was left out is replaced by the next of its kind.
-        if (path.thinned > 1 && kind != PathKind::JUMP && left_out && !path.points.empty() && path.kinds.back() == uint8_t(kind)) {
+        if (path.thinned > 1 && kind != PathKind::JUMP && left_out && !path.points.empty() &&
+            path.kinds.back() == uint8_t(kind)) {
             left_out = ++skipped % path.thinned != 0;
             path.points.set(path.points.size() - 1, p);
             path.lines.back() = line;

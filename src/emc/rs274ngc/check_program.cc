@@ -221,7 +221,8 @@ struct Checker {
         } else {
             // Any tool will do: the common numbers exist.
             canon.tools.resize(CANON_POCKETS_MAX, tooldata_entry_init());
-            for (int i = 1; i < CANON_POCKETS_MAX; ++i) canon.tools[size_t(i)].toolno = canon.tools[size_t(i)].pocketno = i;
+            for (int i = 1; i < CANON_POCKETS_MAX; ++i)
+                canon.tools[size_t(i)].toolno = canon.tools[size_t(i)].pocketno = i;
         }
         if (own_store) tool_mmap_close();
     }
@@ -245,12 +246,14 @@ struct Checker {
             warn("G0 while cutter compensation is on", "the corner is cut at rapid speed; use G1, or G40 first");
         const int g0 = b.g_modes[GM_MODAL_0];
         if ((g0 == G_28_1 || g0 == G_30_1) && b.any_axis())
-            warn("axis words on a line that stores a position", "they move the machine; put them on a line of their own");
+            warn("axis words on a line that stores a position",
+                 "they move the machine; put them on a line of their own");
         if ((b.motion == G_2 || b.motion == G_3) && (b.present & IJK_WORDS) && !b.has('r') && s.plane < CANON_PLANE_UV)
             look_at_arc(s, b);
         if (b.motion >= G_1 && b.motion != G_80 && b.any_axis() && !canon.chosen_units && !canon.moved &&
             b.g_modes[GM_UNITS] == -1)
-            warn("a feed move before any G20 or G21", "the units depend on what ran before; begin the program with G20 or G21");
+            warn("a feed move before any G20 or G21",
+                 "the units depend on what ran before; begin the program with G20 or G21");
     }
 
     // No feed rate at all is said once; the check goes on with one, for what follows would fail in its wake.

@@ -33,7 +33,8 @@ template <class Visit> void each_word(const char *t, Visit visit)
         const int start = i++;
         int depth = 0;
         // A word reaches to the next letter outside brackets and names.
-        while (t[i] && (depth > 0 || !((t[i] >= 'a' && t[i] <= 'z') || strchr("(;$@^", t[i]) || (t[i] == '#' && t[i - 1] != t[start] && i > start + 1)))) {
+        while (t[i] && (depth > 0 || !((t[i] >= 'a' && t[i] <= 'z') || strchr("(;$@^", t[i]) ||
+                                       (t[i] == '#' && t[i - 1] != t[start] && i > start + 1)))) {
             if (t[i] == '[' || t[i] == '<') ++depth;
             if (t[i] == ']' || t[i] == '>') --depth;
             ++i;
@@ -107,7 +108,8 @@ int distance(std::string_view a, std::string_view b)
         row[0] = int(i);
         for (size_t j = 1; j <= b.size(); ++j) {
             row[j] = std::min({old[j] + 1, row[j - 1] + 1, old[j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], older[j - 2] + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], older[j - 2] + 1);
         }
     }
     return row[b.size()];
@@ -190,8 +192,9 @@ const Remedy remedies[] = {
     {"R i j k words all missing", "give the centre (I J, K I or J K by plane) or the radius R"},
     {"Mixed radius ijk", "give either R or the centre words, not both"},
     {"Arc radius too small", "R must be at least half the distance from start to end"},
-    {"Radius to end of arc", "start and end must be equally far from the centre; I J K are relative to the start (G91.1) "
-                             "or absolute (G90.1)"},
+    {"Radius to end of arc",
+     "start and end must be equally far from the centre; I J K are relative to the start (G91.1) "
+     "or absolute (G90.1)"},
     {"Zero-radius arc", "the centre is the start or the end point; check I J K"},
     {"Current point same as end point", "a full circle needs I J K in place of R"},
     {"Cannot use axis values without", "give a motion code: G0, G1, G2 or G3"},
@@ -216,9 +219,12 @@ const Remedy remedies[] = {
     {"Attempt to divide by zero", "test the divisor before: o1 if [#1 NE 0]"},
     {"Length of cutter compensation entry", "make the first move after G41/G42 longer than the tool radius"},
     {"Radius of cutter compensation entry", "make the first move after G41/G42 longer than the tool radius"},
-    {"Straight feed in concave corner", "the tool is too large for this inside corner; use a smaller one or a larger corner"},
-    {"Straight traverse in concave corner", "the tool is too large for this inside corner; use a smaller one or a larger corner"},
-    {"Arc move in concave corner", "the tool is too large for this inside corner; use a smaller one or a larger corner"},
+    {"Straight feed in concave corner",
+     "the tool is too large for this inside corner; use a smaller one or a larger corner"},
+    {"Straight traverse in concave corner",
+     "the tool is too large for this inside corner; use a smaller one or a larger corner"},
+    {"Arc move in concave corner",
+     "the tool is too large for this inside corner; use a smaller one or a larger corner"},
     {"Tool radius not less than arc radius", "the tool is larger than this inside arc"},
     {"The move just after exiting", "make a straight move (G0 or G1) after G40"},
     {"Cannot turn cutter radius comp on when on", "end it with G40 first"},

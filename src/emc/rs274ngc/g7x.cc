@@ -398,7 +398,8 @@ int finish(Setup &s, Contour contour, double d, double e, int passes)
             // Out of the work first, then back beside it.
             double above = start.imag();
             for (const Element &x : c.elements)
-                above = std::max({above, x.start.imag(), x.kind == Element::CCW ? x.centre.imag() + x.radius() : x.end.imag()});
+                above = std::max(
+                    {above, x.start.imag(), x.kind == Element::CCW ? x.centre.imag() + x.radius() : x.end.imag()});
             status = tool.rapid(Plane(tool.location.real(), above));
             if (status == INTERP_OK) status = tool.rapid(Plane(start.real(), above));
         }

@@ -304,7 +304,8 @@ int Interp::synch()
     errno = 0;
     s.parameter_trouble.clear();
     if (save_parameters(s) != INTERP_OK) {
-        s.parameter_trouble = s.parameter_file + ": parameters and offsets can not be saved: " + (errno ? strerror(errno) : s.error.c_str());
+        s.parameter_trouble = s.parameter_file + ": parameters and offsets can not be saved: " +
+                              (errno ? strerror(errno) : s.error.c_str());
         s.fault = fault;
         s.error = error;
     }

@@ -21,7 +21,8 @@ int wait_input(Setup &s)
     const double q = b.value('q', -1);
     CHECK(b.has('p') && b.has('e'), "Invalid to select both a digital and an analog input with M66");
     CHECK(l > 0 && q <= 0, "Zero timeout with wait type != immediate return");
-    CHECK(l > WAIT_MODE_LOW, "Wait type of M66 is none of 0 to 4 (L word)"); // it would wait for nothing, to the time-out
+    CHECK(l > WAIT_MODE_LOW,
+          "Wait type of M66 is none of 0 to 4 (L word)"); // it would wait for nothing, to the time-out
     CHECK(b.has('e') && l > 0, "Can't select analog input with wait type != immediate return");
     CHECK((b.has('p') && rint(b['p']) < 0) || (b.has('e') && rint(b['e']) < 0) || (!b.has('p') && !b.has('e')),
           "Need to have either a valid P or a valid E word with M66");

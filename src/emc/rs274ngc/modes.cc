@@ -138,7 +138,8 @@ int convert_retract(Setup &s, int g)
 {
     CHECK(s.comp_on(), "Cannot change retract mode with cutter radius compensation on");
     s.retract_mode = g == G_98 ? OLD_Z : R_PLANE;
-    enqueue_comment(s, g == G_98 ? "interpreter: retract mode set to old_z" : "interpreter: retract mode set to r_plane");
+    enqueue_comment(s,
+                    g == G_98 ? "interpreter: retract mode set to old_z" : "interpreter: retract mode set to r_plane");
     return INTERP_OK;
 }
 

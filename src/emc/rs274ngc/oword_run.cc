@@ -163,7 +163,8 @@ int enter(Setup &s, CallType type, const std::string &name)
     const bool saves = type == CALL_NGC || type == CALL_REMAP;
     CHECK(s.call_level + 1 >= MAX_CALL_LEVELS, "Too many subroutine levels");
     Frame &caller = s.frame();
-    if (s.logs(1, type == CALL_REMAP ? LOG_REMAP : LOG_OWORD)) s.log("call %s, level %d", name.c_str(), s.call_level + 1);
+    if (s.logs(1, type == CALL_REMAP ? LOG_REMAP : LOG_OWORD))
+        s.log("call %s, level %d", name.c_str(), s.call_level + 1);
     caller.source = s.source;
     caller.offset = s.after_offset;
     caller.line = s.sequence_number;
@@ -200,8 +201,9 @@ int go_to_sub(Setup &s, const std::string &name)
             go_to(s, source, 0, 0);
         } else {
             const Frame &caller = s.frames[s.call_level - 1];
-            CHECK(caller.source != 0 || s.mdi, "Subroutine 'O%s' not found -- not in offset table and no file '%s.ngc' found",
-                  name.c_str(), name.c_str());
+            CHECK(caller.source != 0 || s.mdi,
+                  "Subroutine 'O%s' not found -- not in offset table and no file '%s.ngc' found", name.c_str(),
+                  name.c_str());
         }
     }
     s.skipping = short_name;

@@ -46,7 +46,9 @@ const Remap *candidate(const Setup &s, int phase)
 }
 
 // The code has a meaning of its own, which its handler may use.
-bool has_builtin(const Remap &r) { return r.letter == 'T' || r.letter == 'S' || r.letter == 'F' || (r.letter == 'M' && m_group(r.code) >= 0); }
+bool has_builtin(const Remap &r) {
+    return r.letter == 'T' || r.letter == 'S' || r.letter == 'F' || (r.letter == 'M' && m_group(r.code) >= 0);
+}
 
 bool stops(const Remap &r) { return r.letter == 'M' && (r.code == 0 || r.code == 1 || r.code == 60); }
 

@@ -67,7 +67,9 @@ bool argspec_ok(Line &line, const std::string &spec)
 }
 
 // Any beginning of the keyword counts as the keyword.
-bool is_option(const std::string &key, const char *keyword) { return strncasecmp(keyword, key.c_str(), key.size()) == 0; }
+bool is_option(const std::string &key, const char *keyword) {
+    return strncasecmp(keyword, key.c_str(), key.size()) == 0;
+}
 
 void take_option(Line &line, Remap &r, const std::string &token, bool *group_given)
 {
@@ -105,7 +107,8 @@ void take_option(Line &line, Remap &r, const std::string &token, bool *group_giv
             line.bad = true;
             return;
         }
-        if (!s.python->callable("remap", value)) return line.fail("'%s' is not a Python callable function - ", value.c_str());
+        if (!s.python->callable("remap", value))
+            return line.fail("'%s' is not a Python callable function - ", value.c_str());
         r.python = value;
     } else {
         line.say("unrecognized option '%s' in  %d:REMAP = %s", key.c_str(), line.number, line.text.c_str());
@@ -157,7 +160,8 @@ void define_g(Line &line, RemapTable &table, Remap &r, bool group_given)
                  r.name.c_str(), int(GM_MOTION), line.number, line.text.c_str());
         r.modal_group = GM_MOTION;
     }
-    if (r.modal_group != GM_MOTION) return line.fail("error: code '%s' : invalid modalgroup=<int> given  : ", r.name.c_str());
+    if (r.modal_group != GM_MOTION)
+        return line.fail("error: code '%s' : invalid modalgroup=<int> given  : ", r.name.c_str());
     r.code = r.motion_code = whole * 10 + part;
     table.by_g[r.code] = &r;
 }

@@ -209,12 +209,13 @@ struct Bench {
         const char *base = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
         folder = std::string(base) + "/interp-fuzz-XXXXXX";
         if (!mkdtemp(folder.data()) || chdir(folder.c_str()) != 0) broken("a scratch folder");
-        std::ofstream("fuzz.ini") << "[TRAJ]\nLINEAR_UNITS=mm\nSPINDLES=3\nCOORDINATES=XYZABCUVW\n"
-                                     "[RS274NGC]\nOWORD_NARGS=1\nRETAIN_G43=1\nG73_PECK_CLEARANCE=0.3\n"
-                                     "REMAP=M400 modalgroup=10 argspec=pq ngc=remapm\n"
-                                     "REMAP=G88.1 modalgroup=1 argspec=XYzr ngc=remapg\nREMAP=M6 modalgroup=6 ngc=remapt\n"
-                                     "REMAP=S ngc=remaps\nON_ABORT_COMMAND=O<remapm> call\n"
-                                     "[AXIS_A]\nWRAPPED_ROTARY=1\n[AXIS_B]\nLOCKING_INDEXER_JOINT=4\n";
+        std::ofstream("fuzz.ini")
+            << "[TRAJ]\nLINEAR_UNITS=mm\nSPINDLES=3\nCOORDINATES=XYZABCUVW\n"
+               "[RS274NGC]\nOWORD_NARGS=1\nRETAIN_G43=1\nG73_PECK_CLEARANCE=0.3\n"
+               "REMAP=M400 modalgroup=10 argspec=pq ngc=remapm\n"
+               "REMAP=G88.1 modalgroup=1 argspec=XYzr ngc=remapg\nREMAP=M6 modalgroup=6 ngc=remapt\n"
+               "REMAP=S ngc=remaps\nON_ABORT_COMMAND=O<remapm> call\n"
+               "[AXIS_A]\nWRAPPED_ROTARY=1\n[AXIS_B]\nLOCKING_INDEXER_JOINT=4\n";
         write("remapm.ngc", "o<remapm> sub\n(print,#<p> #<n_args>)\nG1 X1 F9\no<remapm> endsub [3]\n");
         write("remapg.ngc", "o<remapg> sub\nG0 X#<x> Y#<y>\nG91\no<remapg> endsub\n");
         write("remapt.ngc", "o<remapt> sub\nM73\nG53 G0 Z1\nM6\nG43\no<remapt> endsub\n");

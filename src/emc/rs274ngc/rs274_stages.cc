@@ -59,7 +59,9 @@ void text()
         EXPECT(std::string(t.s.raw) == l.raw);
     }
     EXPECT(take_line(t.s, "G1 X 1 Y2") == INTERP_OK && raw_column(t.s, 2) == 4 && raw_column(t.s, 4) == 8);
-    for (const auto &[raw, what] : {std::pair{"(a (b))", "Nested comment found"}, {"X1 (open", "Unclosed comment found"}, {"G1\nX1", "Null missing after newline"}}) {
+    for (const auto &[raw, what] : {std::pair{"(a (b))", "Nested comment found"},
+                                    {"X1 (open", "Unclosed comment found"},
+                                    {"G1\nX1", "Null missing after newline"}}) {
         EXPECT(take_line(t.s, raw) == INTERP_ERROR);
         EXPECT(t.s.error == what);
     }
@@ -102,7 +104,8 @@ void sources()
         std::ofstream f(name);
         f << std::string(700000, 'x') << "\nafter\n";
     }
-    EXPECT(source.open(name) && source.next(line, newline) && line.size() <= 1024 && source.next(line, newline) && line == "after");
+    EXPECT(source.open(name) && source.next(line, newline) && line.size() <= 1024 && source.next(line, newline) &&
+           line == "after");
     unlink(name);
 }
 
@@ -133,32 +136,72 @@ void expressions()
         const char *text;
         double value;
     } values[] = {
-        {"1.5", 1.5}, {"-.25", -.25}, {"--3", 3}, {"-+-3", 3}, {"[1+2*3]", 7}, {"[2**3**2]", 64}, {"[-2**2]", 4}, {"[10-2-3mod2]", 7},
-        {"[-7mod3]", 2}, {"[7mod-3]", 1}, {"[1or0and0]", 0}, {"[1eq1.0000005]", 1}, {"[1lt1]", 0}, {"#1", 7}, {"##1", 2.5}, {"[#1+2]", 9},
-        {"#[3+4]", 2.5}, {"-#1", -7}, {"sin[30]", .5}, {"-sin[30]", -.5}, {"atan[-1]/[-1]", -135}, {"round[-2.5]", -3}, {"fix[-2.8]", -3},
-        {"fup[-2.8]", -2}, {"exists[#<nope>]", 0}, {"exists[#5601]", 1}, {"exists[#5602]", 0}, {"exists[#<_x>]", 1}, {"sqrt[2]", M_SQRT2}, {"ln[exp[2]]", 2},
+        {"1.5", 1.5},
+        {"-.25", -.25},
+        {"--3", 3},
+        {"-+-3", 3},
+        {"[1+2*3]", 7},
+        {"[2**3**2]", 64},
+        {"[-2**2]", 4},
+        {"[10-2-3mod2]", 7},
+        {"[-7mod3]", 2},
+        {"[7mod-3]", 1},
+        {"[1or0and0]", 0},
+        {"[1eq1.0000005]", 1},
+        {"[1lt1]", 0},
+        {"#1", 7},
+        {"##1", 2.5},
+        {"[#1+2]", 9},
+        {"#[3+4]", 2.5},
+        {"-#1", -7},
+        {"sin[30]", .5},
+        {"-sin[30]", -.5},
+        {"atan[-1]/[-1]", -135},
+        {"round[-2.5]", -3},
+        {"fix[-2.8]", -3},
+        {"fup[-2.8]", -2},
+        {"exists[#<nope>]", 0},
+        {"exists[#5601]", 1},
+        {"exists[#5602]", 0},
+        {"exists[#<_x>]", 1},
+        {"sqrt[2]", M_SQRT2},
+        {"ln[exp[2]]", 2},
     };
     for (const auto &v : values) {
         double got = NAN;
         EXPECT(take_line(t.s, v.text) == INTERP_OK);
-        if (read_real(t.s, &got) != INTERP_OK || fabs(got - v.value) > 1e-12) printf("%s = %.15g, not %.15g: %s\n", v.text, got, v.value, t.s.error.c_str()), ++failures;
+        if (read_real(t.s, &got) != INTERP_OK || fabs(got - v.value) > 1e-12)
+            printf("%s = %.15g, not %.15g: %s\n", v.text, got, v.value, t.s.error.c_str()), ++failures;
         if (t.s.text[t.s.pos]) printf("%s: read up to '%s'\n", v.text, t.s.text + t.s.pos), ++failures;
     }
     struct {
         const char *text, *what;
     } faults[] = {
-        {"", "No characters found in reading real value"}, {"-", "No characters found in reading real value"}, {"[1/0]", "Attempt to divide by zero"},
-        {"[1", "Unclosed expression"}, {"[1?2]", "Unknown operation"}, {"[1moo2]", "Unknown operation name starting with m"}, {"sin30", "Left bracket missing after unary operation name"},
-        {"sqr[2]", "Unknown word starting with s"}, {"zzz", "Unknown word where unary operation could be"}, {"#0", "Parameter number out of range"},
-        {"#1.5", "Non integer value for integer"}, {"#<nope>", "Named parameter #<nope> not defined"}, {"#<open", "Named parameter not terminated"},
-        {"1.2.3", "bad number format (trailing characters) parsing '1.2.3'"}, {".", "bad number format (conversion failed) parsing '.'"},
-        {"asin[2]", "Argument to asin out of range"}, {"[-8**.5]", "Attempt to raise negative to non integer power"}, {"exp[1000]", "Calculation resulted in 'infinity'"},
+        {"", "No characters found in reading real value"},
+        {"-", "No characters found in reading real value"},
+        {"[1/0]", "Attempt to divide by zero"},
+        {"[1", "Unclosed expression"},
+        {"[1?2]", "Unknown operation"},
+        {"[1moo2]", "Unknown operation name starting with m"},
+        {"sin30", "Left bracket missing after unary operation name"},
+        {"sqr[2]", "Unknown word starting with s"},
+        {"zzz", "Unknown word where unary operation could be"},
+        {"#0", "Parameter number out of range"},
+        {"#1.5", "Non integer value for integer"},
+        {"#<nope>", "Named parameter #<nope> not defined"},
+        {"#<open", "Named parameter not terminated"},
+        {"1.2.3", "bad number format (trailing characters) parsing '1.2.3'"},
+        {".", "bad number format (conversion failed) parsing '.'"},
+        {"asin[2]", "Argument to asin out of range"},
+        {"[-8**.5]", "Attempt to raise negative to non integer power"},
+        {"exp[1000]", "Calculation resulted in 'infinity'"},
         {"[1mod0]", "Calculation resulted in 'not a number'"},
     };
     for (const auto &f : faults) {
         double got;
         EXPECT(take_line(t.s, f.text) == INTERP_OK);
-        if (read_real(t.s, &got) != INTERP_ERROR || t.s.error != f.what) printf("%s: '%s', not '%s'\n", f.text, t.s.error.c_str(), f.what), ++failures;
+        if (read_real(t.s, &got) != INTERP_ERROR || t.s.error != f.what)
+            printf("%s: '%s', not '%s'\n", f.text, t.s.error.c_str(), f.what), ++failures;
     }
 }
 
@@ -173,9 +216,15 @@ void words()
     EXPECT(std::string(b.comment, size_t(b.comment_length)) == "hi");
     EXPECT(t.s.parameters[1] == 0 && t.s.feed_rate == 0); // read, not executed
     EXPECT(b.motion == 10);
-    for (const auto &[line, what] : {std::pair{"X1 X2", "Multiple x words on one line"}, {"G1 G0 X1", "Two g codes used from same modal group"}, {"M3 M4", "Two m codes used from same modal group"},
-                                     {"M3 M8 M48 M0 M62P1", "Too many m codes on line"}, {"F-1", "Negative f word used"}, {"G1.15", "G-code out of range"},
-                                     {"T-1", "Negative tool id (tool not found)"}, {"X1 N5", "Bad character 'n' used"}, {"G5.05", "G-code out of range"}}) {
+    for (const auto &[line, what] : {std::pair{"X1 X2", "Multiple x words on one line"},
+                                     {"G1 G0 X1", "Two g codes used from same modal group"},
+                                     {"M3 M4", "Two m codes used from same modal group"},
+                                     {"M3 M8 M48 M0 M62P1", "Too many m codes on line"},
+                                     {"F-1", "Negative f word used"},
+                                     {"G1.15", "G-code out of range"},
+                                     {"T-1", "Negative tool id (tool not found)"},
+                                     {"X1 N5", "Bad character 'n' used"},
+                                     {"G5.05", "G-code out of range"}}) {
         EXPECT(t.interp.read(line) == INTERP_ERROR);
         if (t.s.error != what) printf("%s: '%s', not '%s'\n", line, t.s.error.c_str(), what), ++failures;
     }
@@ -189,8 +238,9 @@ void inference()
         const char *line;
         int motion; // -2: error
     } lines[] = {
-        {"X1", -2}, {"G0 X1", 0}, {"G10 L2 P1 X1", -1}, {"G92 X1", -1}, {"G28 X1", -1}, {"G28.1", -1}, {"G1", 10}, {"G2 I1", 20}, {"G80", 800}, {"G80 X1", -2},
-        {"G43.1 Z1", -1}, {"G10 L2 P1 G1 X1", -2}, {"G33", -2}, {"G4 P1", -1}, {"P1", -2}, {"H1", -2}, {"G53 G2 X1 R1", -2}, {"G92", -2},
+        {"X1", -2},  {"G0 X1", 0},  {"G10 L2 P1 X1", -1}, {"G92 X1", -1}, {"G28 X1", -1},       {"G28.1", -1},
+        {"G1", 10},  {"G2 I1", 20}, {"G80", 800},         {"G80 X1", -2}, {"G43.1 Z1", -1},     {"G10 L2 P1 G1 X1", -2},
+        {"G33", -2}, {"G4 P1", -1}, {"P1", -2},           {"H1", -2},     {"G53 G2 X1 R1", -2}, {"G92", -2},
     };
     for (const auto &l : lines) {
         const int status = t.interp.read(l.line);

@@ -312,8 +312,9 @@ void a_printed_block_reads_as_the_same_block()
     srand(7);
     int equal = 0;
     for (int n = 0; n < 20000; ++n) {
-        static const char *const heads[] = {"G1", "G0", "G1 G90 G21", "G91 G1", "G2 I1.5", "G17 G3 R50", "M3 G1", "M8 M3 G1",
-                                            "G43.1", "G10 L2 P3", "G92", "G4 P.25 G1", "G81 R5 Z1", "G64 P.1 Q.2 G1", "G53 G0 G90"};
+        static const char *const heads[] = {"G1",         "G0",         "G1 G90 G21", "G91 G1",         "G2 I1.5",
+                                            "G17 G3 R50", "M3 G1",      "M8 M3 G1",   "G43.1",          "G10 L2 P3",
+                                            "G92",        "G4 P.25 G1", "G81 R5 Z1",  "G64 P.1 Q.2 G1", "G53 G0 G90"};
         std::string text = heads[size_t(rand()) % (sizeof heads / sizeof *heads)];
         for (char c : {'X', 'Y'}) {
             char word[64];
@@ -373,10 +374,31 @@ class IdleCanon : public Canon
 // the program's length.
 void motion_lines_allocate_nothing()
 {
-    static const char *const kinds[] = {
-        "G1 X1.5 Y2.25 Z-3 F100", "N120 G0 X0Y0Z5", "X2 Y[1+2*3] (with a comment)", "G2 X4 Y7 I1 J0.0", "G3 X0 Y0 R8 ; tail",
-        "G1 X#1 A45 F[200/4]", "#1=[#1+1] #<named>=3", "G4 P.1", "G81 X1 Z-1 R2", "X2", "G80", "M8 S100", "/G1 X1", "G91 X#<named>", "G90",
-        "G41.1 D1", "G1 X20 Y20", "G1 X30", "G40", "G0 X0 Y0", "o1 if [#1 gt 5]", "G1 X3", "o1 else", "G1 X4", "o1 endif"};
+    static const char *const kinds[] = {"G1 X1.5 Y2.25 Z-3 F100",
+                                        "N120 G0 X0Y0Z5",
+                                        "X2 Y[1+2*3] (with a comment)",
+                                        "G2 X4 Y7 I1 J0.0",
+                                        "G3 X0 Y0 R8 ; tail",
+                                        "G1 X#1 A45 F[200/4]",
+                                        "#1=[#1+1] #<named>=3",
+                                        "G4 P.1",
+                                        "G81 X1 Z-1 R2",
+                                        "X2",
+                                        "G80",
+                                        "M8 S100",
+                                        "/G1 X1",
+                                        "G91 X#<named>",
+                                        "G90",
+                                        "G41.1 D1",
+                                        "G1 X20 Y20",
+                                        "G1 X30",
+                                        "G40",
+                                        "G0 X0 Y0",
+                                        "o1 if [#1 gt 5]",
+                                        "G1 X3",
+                                        "o1 else",
+                                        "G1 X4",
+                                        "o1 endif"};
     std::string text = "G21 G17 G90 F100 S1 M3\n#<named>=1 #1=0\no9 while [#1 lt 400]\n";
     for (const char *k : kinds) text += std::string(k) + "\n";
     write_file("many.ngc", text + "o9 endwhile\nM2\n");

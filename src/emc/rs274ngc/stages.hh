@@ -169,11 +169,11 @@ bool modes_of_tag(const state_tag_t &tag, int *g, int *m, double *v);
 [[nodiscard]] int execute_inner(Setup &s, const char *text); // context.cc
 [[nodiscard]] int restore_after_abort(Setup &s, const state_tag_t &tag);
 
-// ---- comp_moves.cc: straight moves and arcs with compensation ---------------------------------------------------------
+// ---- comp_moves.cc: straight moves and arcs with compensation ----
 [[nodiscard]] int comp_straight(Setup &s, int g, const EmcPose &end);
 [[nodiscard]] int comp_arc(Setup &s, int g, const EmcPose &end);
 
-// ---- comp_queue.cc ------------------------------------------------------------------------------------------------------
+// ---- comp_queue.cc ----
 void enqueue_feed_rate(Setup &s, double rate);
 void enqueue_feed_mode(Setup &s, int spindle, int mode);
 void enqueue_dwell(Setup &s, double seconds);

@@ -7,13 +7,15 @@
 
 constexpr size_t MAX_NOTES = 100; // more than anyone reads
 
-DryRun::DryRun(const EMC_STAT &stat, const AxisLimits &limits, const CanonSettings &settings) : stat_(std::make_unique<EMC_STAT>(stat)) {
+DryRun::DryRun(const EMC_STAT &stat, const AxisLimits &limits, const CanonSettings &settings)
+    : stat_(std::make_unique<EMC_STAT>(stat)) {
     canon_ = std::make_unique<TaskCanon>(*stat_, list_, limits, settings);
     canon_->source_line = [this] { return interp_ ? interp_->line() : 0; };
     highest_z_ = stat_->motion.traj.position.tran.z;
 }
 
-bool DryRun::begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, const Interp &live_interp, const std::string &program, int line) {
+bool DryRun::begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, const Interp &live_interp,
+                   const std::string &program, int line) {
     interp_ = std::move(interp);
     canon_->take_state(live_canon);
     interp_->take_state(live_interp);
@@ -26,7 +28,8 @@ bool DryRun::begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, 
 }
 
 void DryRun::note(const std::string &text) {
-    if (notes_.size() < MAX_NOTES && std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
+    if (notes_.size() < MAX_NOTES && std::find(notes_.begin(), notes_.end(), text) == notes_.end())
+        notes_.push_back(text);
 }
 
 DryRun::Result DryRun::step(int lines) {
@@ -36,7 +39,9 @@ DryRun::Result DryRun::step(int lines) {
             canon_->FINISH();
             digest();
             interp_->get_offsets(offsets_.values);
-            if (interp_->line() != wanted_line_) note("line " + std::to_string(wanted_line_) + " is not reached as such: the start is at line " + std::to_string(interp_->line()));
+            if (interp_->line() != wanted_line_)
+                note("line " + std::to_string(wanted_line_) + " is not reached as such: the start is at line " +
+                     std::to_string(interp_->line()));
             return Result::reached;
         }
         if (r == INTERP_OK) r = interp_->execute();
@@ -87,7 +92,8 @@ void DryRun::digest_one(const NMLmsg &m) {
         move_to(as<EMC_TRAJ_PROBE>(m).pos);
         s.motion.traj.probedPosition = as<EMC_TRAJ_PROBE>(m).pos;
         s.motion.traj.probe_tripped = 1;
-        note("line " + std::to_string(interp_->line()) + " probes: its result is not known; the end of the move is taken");
+        note("line " + std::to_string(interp_->line()) +
+             " probes: its result is not known; the end of the move is taken");
         return;
     case EMC_AUX_INPUT_WAIT_TYPE:
         note("line " + std::to_string(interp_->line()) + " reads an input: its present value is taken");
@@ -132,7 +138,9 @@ void DryRun::digest_one(const NMLmsg &m) {
     case EMC_COOLANT_MIST_OFF_TYPE: s.io.coolant.mist = 0; return;
     case EMC_COOLANT_FLOOD_ON_TYPE: s.io.coolant.flood = 1; return;
     case EMC_COOLANT_FLOOD_OFF_TYPE: s.io.coolant.flood = 0; return;
-    case EMC_TOOL_PREPARE_TYPE: s.io.tool.pocketPrepped = tooldata_find_index_for_tool(as<EMC_TOOL_PREPARE>(m).tool); return;
+    case EMC_TOOL_PREPARE_TYPE:
+        s.io.tool.pocketPrepped = tooldata_find_index_for_tool(as<EMC_TOOL_PREPARE>(m).tool);
+        return;
     case EMC_TOOL_LOAD_TYPE:
     case EMC_TOOL_SET_NUMBER_TYPE:
         {
@@ -152,9 +160,15 @@ void DryRun::digest_one(const NMLmsg &m) {
     case EMC_TRAJ_SET_G92_TYPE: s.task.g92_offset = as<EMC_TRAJ_SET_G92>(m).origin; return keep();
     case EMC_TRAJ_SET_ROTATION_TYPE: s.task.rotation_xy = as<EMC_TRAJ_SET_ROTATION>(m).rotation; return keep();
     case EMC_TRAJ_SET_OFFSET_TYPE: s.task.toolOffset = as<EMC_TRAJ_SET_OFFSET>(m).offset; return keep();
-    case EMC_TRAJ_SET_FO_ENABLE_TYPE: s.motion.traj.feed_override_enabled = as<EMC_TRAJ_SET_FO_ENABLE>(m).mode; return keep();
-    case EMC_TRAJ_SET_FH_ENABLE_TYPE: s.motion.traj.feed_hold_enabled = as<EMC_TRAJ_SET_FH_ENABLE>(m).mode; return keep();
-    case EMC_MOTION_ADAPTIVE_TYPE: s.motion.traj.adaptive_feed_enabled = as<EMC_MOTION_ADAPTIVE>(m).status; return keep();
+    case EMC_TRAJ_SET_FO_ENABLE_TYPE:
+        s.motion.traj.feed_override_enabled = as<EMC_TRAJ_SET_FO_ENABLE>(m).mode;
+        return keep();
+    case EMC_TRAJ_SET_FH_ENABLE_TYPE:
+        s.motion.traj.feed_hold_enabled = as<EMC_TRAJ_SET_FH_ENABLE>(m).mode;
+        return keep();
+    case EMC_MOTION_ADAPTIVE_TYPE:
+        s.motion.traj.adaptive_feed_enabled = as<EMC_MOTION_ADAPTIVE>(m).status;
+        return keep();
     case EMC_TRAJ_SET_SO_ENABLE_TYPE: return keep(as<EMC_TRAJ_SET_SO_ENABLE>(m).spindle);
     case EMC_TRAJ_SET_TERM_COND_TYPE:
     case EMC_TRAJ_SET_SPINDLESYNC_TYPE: return keep();
@@ -188,7 +202,8 @@ std::vector<AnyMessage> DryRun::starts() const {
     return orders;
 }
 
-void DryRun::hand_over(EMC_STAT &stat, InterpList &list, std::unique_ptr<TaskCanon> *canon, std::unique_ptr<Interp> *interp) {
+void DryRun::hand_over(EMC_STAT &stat, InterpList &list, std::unique_ptr<TaskCanon> *canon,
+                       std::unique_ptr<Interp> *interp) {
     canon_->attach(stat, list);
     interp_->keep_parameters(true);
     *interp = std::move(interp_); // the old interpreter goes before the canon it calls

@@ -28,7 +28,8 @@ public:
     TaskCanon &canon() { return *canon_; }
 
     // interp: made for canon(), initialised. false: see error().
-    bool begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, const Interp &live_interp, const std::string &program, int line);
+    bool begin(std::unique_ptr<Interp> interp, const TaskCanon &live_canon, const Interp &live_interp,
+               const std::string &program, int line);
 
     // Told of each order in turn before it takes effect on paper; null: the interpreter waits for all before.
     std::function<void(const InterpList::Entry *)> watch;
@@ -54,7 +55,8 @@ public:
     const std::string &error() const { return error_; }
     const Interp &interp() const { return *interp_; }
     // The interpreter and its canon, which then works for the machine itself.
-    void hand_over(EMC_STAT &stat, InterpList &list, std::unique_ptr<TaskCanon> *canon, std::unique_ptr<Interp> *interp);
+    void hand_over(EMC_STAT &stat, InterpList &list, std::unique_ptr<TaskCanon> *canon,
+                   std::unique_ptr<Interp> *interp);
 
 private:
     void digest();

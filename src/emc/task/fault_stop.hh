@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// fault_stop.hh - what a joint's fault does to the spindles, and whether the machine may leave a limit switch by itself. [task]
+// fault_stop.hh - what a joint's fault does to the spindles, and whether the machine may leave a limit switch
+// by itself. [task]
 //
-// In:  [TASK] LIMIT_SWITCH_SPINDLE, AMP_FAULT_SPINDLE, FOLLOWING_ERROR_SPINDLE, LIMIT_SWITCH_RETRACT; feedback of the joints
+// In:  [TASK] LIMIT_SWITCH_SPINDLE, AMP_FAULT_SPINDLE, FOLLOWING_ERROR_SPINDLE, LIMIT_SWITCH_RETRACT; feedback
+//      of the joints
 // Out: when the spindles go off
 #ifndef KERF_FAULT_STOP_HH
 #define KERF_FAULT_STOP_HH

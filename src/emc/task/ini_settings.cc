@@ -13,7 +13,8 @@
 
 #include "rcs_print.hh"
 
-int word_of(const linuxcnc::IniFile &ini, const char *section, const char *name, int standard, std::initializer_list<const char *> words) {
+int word_of(const linuxcnc::IniFile &ini, const char *section, const char *name, int standard,
+            std::initializer_list<const char *> words) {
     const std::string value = ini.findStringV(name, section, "");
     if (value.empty()) return standard;
     int n = 0;
@@ -71,8 +72,8 @@ bool read_home(const linuxcnc::IniFile &ini, EmcPose *home, bool *present) {
 }
 
 int send_arc_blends(const Settings &s, MotionLink &m) {
-    return m.set_arc_blends(s.arc_blend, s.arc_blend_fallback, s.arc_blend_depth, static_cast<int>(s.arc_blend_gap_cycles), s.arc_blend_ramp_freq,
-                            s.arc_blend_kink_ratio);
+    return m.set_arc_blends(s.arc_blend, s.arc_blend_fallback, s.arc_blend_depth,
+                            static_cast<int>(s.arc_blend_gap_cycles), s.arc_blend_ramp_freq, s.arc_blend_kink_ratio);
 }
 
 int load_traj(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &motion, Settings &s) {
@@ -104,7 +105,9 @@ int load_traj(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &motion, 
     if (s.max_jerk < 1) {
         s.smooth_planner = 0;
         if (s.planner_type == 1)
-            rcs_print("[TRAJ]PLANNER_TYPE = 1 (S-curve) requires [TRAJ]MAX_LINEAR_JERK >= 1.0 (got %g); using trapezoidal planner\n", s.max_jerk);
+            rcs_print("[TRAJ]PLANNER_TYPE = 1 (S-curve) requires [TRAJ]MAX_LINEAR_JERK >= 1.0 (got %g); using "
+                      "trapezoidal planner\n",
+                      s.max_jerk);
         s.planner_type = 0;
     }
     send(motion.set_planner_type(s.planner_type));
@@ -119,10 +122,12 @@ int load_traj(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &motion, 
     send(send_arc_blends(s, motion));
     send(motion.set_max_feed_override(ini.findRealV("MAX_FEED_OVERRIDE", "DISPLAY", 1.0)));
     const int feed_contact = word_of(ini, "TRAJ", "PROBE_CONTACT_FEED", PROBE_CONTACT_STOP, {"STOP", "WARN", "IGNORE"});
-    const int rapid_contact = word_of(ini, "TRAJ", "PROBE_CONTACT_RAPID", PROBE_CONTACT_STOP, {"STOP", "WARN", "IGNORE"});
+    const int rapid_contact =
+        word_of(ini, "TRAJ", "PROBE_CONTACT_RAPID", PROBE_CONTACT_STOP, {"STOP", "WARN", "IGNORE"});
     if (feed_contact < 0 || rapid_contact < 0) return -1;
-    send(motion.set_probe_errors(ini.findBoolV("NO_PROBE_JOG_ERROR", "TRAJ", false), ini.findBoolV("NO_PROBE_HOME_ERROR", "TRAJ", false),
-                                 feed_contact, rapid_contact, ini.findRealV("PROBE_CONTACT_FILTER", "TRAJ", 0.0, 0.0, 10.0)));
+    send(motion.set_probe_errors(ini.findBoolV("NO_PROBE_JOG_ERROR", "TRAJ", false),
+                                 ini.findBoolV("NO_PROBE_HOME_ERROR", "TRAJ", false), feed_contact, rapid_contact,
+                                 ini.findRealV("PROBE_CONTACT_FILTER", "TRAJ", 0.0, 0.0, 10.0)));
     EmcPose home{};
     bool present;
     if (!read_home(ini, &home, &present)) return -1;
@@ -186,14 +191,15 @@ int load_axis(int n, const linuxcnc::IniFile &ini, MotionLink &motion, Settings:
     send(motion.set_axis_max_limit(n, s.max_limit));
     s.offset_ratio = ini.findRealV("OFFSET_AV_RATIO", sec, 0);
     if (s.offset_ratio < 0 || s.offset_ratio > 0.9) {
-        rcs_print("\n   Invalid: [%s]OFFSET_AV_RATIO=%8.5f (range [0.0,%f]); using: [%s]OFFSET_AV_RATIO=%8.5f\n", sec.c_str(), s.offset_ratio, 0.9,
-                  sec.c_str(), 0.1);
+        rcs_print("\n   Invalid: [%s]OFFSET_AV_RATIO=%8.5f (range [0.0,%f]); using: [%s]OFFSET_AV_RATIO=%8.5f\n",
+                  sec.c_str(), s.offset_ratio, 0.9, sec.c_str(), 0.1);
         s.offset_ratio = 0.1;
     }
     s.max_velocity = ini.findRealV("MAX_VELOCITY", sec, 1.0);
     send(motion.set_axis_max_velocity(n, s.max_velocity * (1 - s.offset_ratio), s.max_velocity * s.offset_ratio));
     s.max_acceleration = ini.findRealV("MAX_ACCELERATION", sec, 1.0);
-    send(motion.set_axis_max_acceleration(n, s.max_acceleration * (1 - s.offset_ratio), s.max_acceleration * s.offset_ratio));
+    send(motion.set_axis_max_acceleration(n, s.max_acceleration * (1 - s.offset_ratio),
+                                          s.max_acceleration * s.offset_ratio));
     send(motion.set_axis_locking_joint(n, ini.findIntV("LOCKING_INDEXER_JOINT", sec, -1)));
     s.max_jerk = ini.findRealV("MAX_JERK", sec, 0);
     send(motion.set_axis_max_jerk(n, s.max_jerk));
@@ -207,7 +213,8 @@ int load_spindle(int n, const linuxcnc::IniFile &ini, MotionLink &motion) {
     if (auto v = ini.findReal("MIN_FORWARD_VELOCITY", sec)) { min_forward = *v; min_reverse = -*v; }
     if (auto v = ini.findReal("MIN_REVERSE_VELOCITY", sec)) min_reverse = -std::fabs(*v);
     if (auto v = ini.findReal("MAX_REVERSE_VELOCITY", sec)) max_reverse = -std::fabs(*v);
-    return motion.set_spindle_params(n, max_forward, min_forward, max_reverse, min_reverse, ini.findRealV("HOME_SEARCH_VELOCITY", sec, 0), 0,
+    return motion.set_spindle_params(n, max_forward, min_forward, max_reverse, min_reverse,
+                                     ini.findRealV("HOME_SEARCH_VELOCITY", sec, 0), 0,
                                      ini.findIntV("HOME_SEQUENCE", sec, 0), ini.findRealV("INCREMENT", sec, 100));
 }
 
@@ -228,7 +235,8 @@ int load_settings(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &moti
 // ---- inihal ----
 
 struct JointPins {
-    hal_float_t *backlash, *ferror, *min_ferror, *min_limit, *max_limit, *max_velocity, *max_acceleration, *max_jerk, *home, *home_offset;
+    hal_float_t *backlash, *ferror, *min_ferror, *min_limit, *max_limit, *max_velocity, *max_acceleration, *max_jerk,
+        *home, *home_offset;
     hal_s32_t *home_sequence;
 };
 struct AxisPins { hal_float_t *min_limit, *max_limit, *max_velocity, *max_acceleration, *max_jerk; };
@@ -254,7 +262,9 @@ bool IniPins::create(int joints) {
     pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
     if (!pins_) return false;
     int r = 0;
-    auto real = [&](hal_float_t **p, const std::string &name) { r |= hal_pin_float_newf(HAL_IN, p, comp_, "ini.%s", name.c_str()); };
+    auto real = [&](hal_float_t **p, const std::string &name) {
+        r |= hal_pin_float_newf(HAL_IN, p, comp_, "ini.%s", name.c_str());
+    };
     for (int n = 0; n < joints_; n++) {
         JointPins &j = pins_->joint[n];
         std::string p = std::to_string(n) + ".";
@@ -375,9 +385,11 @@ void IniPins::poll(Settings &s, MotionLink &m) {
         Settings::Axis &a = s.axis[n];
         if (real(p.min_limit, a.min_limit)) m.set_axis_min_limit(n, a.min_limit);
         if (real(p.max_limit, a.max_limit)) m.set_axis_max_limit(n, a.max_limit);
-        if (real(p.max_velocity, a.max_velocity)) m.set_axis_max_velocity(n, a.max_velocity * (1 - a.offset_ratio), a.max_velocity * a.offset_ratio);
+        if (real(p.max_velocity, a.max_velocity))
+            m.set_axis_max_velocity(n, a.max_velocity * (1 - a.offset_ratio), a.max_velocity * a.offset_ratio);
         if (real(p.max_acceleration, a.max_acceleration))
-            m.set_axis_max_acceleration(n, a.max_acceleration * (1 - a.offset_ratio), a.max_acceleration * a.offset_ratio);
+            m.set_axis_max_acceleration(n, a.max_acceleration * (1 - a.offset_ratio),
+                                        a.max_acceleration * a.offset_ratio);
         if (real(p.max_jerk, a.max_jerk)) m.set_axis_max_jerk(n, a.max_jerk);
     }
     if (real(pins_->default_velocity, s.default_velocity)) m.set_velocity(0, s.default_velocity);
@@ -388,7 +400,8 @@ void IniPins::poll(Settings &s, MotionLink &m) {
     if (jerk) m.set_jerk(s.max_jerk);
     if (planner) s.planner_type = planner_pin_ == 1;
     if (s.planner_type == 1 && s.max_jerk < 1 && (jerk || planner)) {
-        if (!planner_warned_) rcs_print("S-curve planner (planner type 1) requires max jerk >= 1.0; using trapezoidal planner\n");
+        if (!planner_warned_)
+            rcs_print("S-curve planner (planner type 1) requires max jerk >= 1.0; using trapezoidal planner\n");
         planner_warned_ = true;
         m.set_planner_type(0);
     } else if (planner) {

@@ -25,7 +25,8 @@ struct Settings {
         double min_limit = -1e99, max_limit = 1e99, max_velocity = 1, max_acceleration = 1, max_jerk = 0;
         double offset_ratio = 0; // share of speed and acceleration for external offsets
     } axis[EMCMOT_MAX_AXIS];
-    double default_velocity = 1, max_velocity = 1e99, default_acceleration = 1e99, max_acceleration = 1e99, max_jerk = 1e9;
+    double default_velocity = 1, max_velocity = 1e99, default_acceleration = 1e99, max_acceleration = 1e99,
+           max_jerk = 1e9;
     double scurve_peak_scale = 1;
     int planner_type = 0, smooth_planner = 1;
     bool arc_blend = true, arc_blend_fallback = false;
@@ -36,7 +37,8 @@ struct Settings {
 };
 
 // Index of the value among the words, those in any case; `standard` without a value; -1, with a message, none of them.
-int word_of(const linuxcnc::IniFile &ini, const char *section, const char *name, int standard, std::initializer_list<const char *> words);
+int word_of(const linuxcnc::IniFile &ini, const char *section, const char *name, int standard,
+            std::initializer_list<const char *> words);
 
 // Sends everything in the documented order. 0; -1 with a message.
 int load_settings(const linuxcnc::IniFile &ini, EMC_STAT &stat, MotionLink &motion, Settings *settings);

@@ -33,7 +33,8 @@ bool IoControl::create(const linuxcnc::IniFile &ini) {
     table_ = ini.findStringV("TOOL_TABLE", "EMCIO", "");
     if (!read_change_position(ini)) return false;
     std::string program = ini.findStringV("DB_PROGRAM", "EMCIO", "");
-    if (tool_mmap_creator(nullptr, random_) != 0) rcs_print("can't create the shared tool data; other programs will see no tools\n");
+    if (tool_mmap_creator(nullptr, random_) != 0)
+        rcs_print("can't create the shared tool data; other programs will see no tools\n");
     tooldata_init(random_);
     if (!program.empty()) {
         if (!table_.empty()) fprintf(stderr, "DB_PROGRAM active: IGNORING tool table file %s\n", table_.c_str());
@@ -57,8 +58,12 @@ bool IoControl::create(const linuxcnc::IniFile &ini) {
     pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
     if (!pins_) return false;
     int r = 0;
-    auto bit = [&](hal_pin_dir_t dir, hal_bit_t **p, const char *name) { r |= hal_pin_bit_newf(dir, p, comp_, "iocontrol.0.%s", name); };
-    auto s32 = [&](hal_s32_t **p, const char *name) { r |= hal_pin_s32_newf(HAL_OUT, p, comp_, "iocontrol.0.%s", name); };
+    auto bit = [&](hal_pin_dir_t dir, hal_bit_t **p, const char *name) {
+        r |= hal_pin_bit_newf(dir, p, comp_, "iocontrol.0.%s", name);
+    };
+    auto s32 = [&](hal_s32_t **p, const char *name) {
+        r |= hal_pin_s32_newf(HAL_OUT, p, comp_, "iocontrol.0.%s", name);
+    };
     bit(HAL_OUT, &pins_->user_enable_out, "user-enable-out");
     bit(HAL_IN, &pins_->emc_enable_in, "emc-enable-in");
     bit(HAL_OUT, &pins_->user_request_enable, "user-request-enable");
@@ -242,7 +247,8 @@ bool IoControl::save_table() {
 // False, and the operator is told, when the program is gone: what it does not hear is lost.
 bool IoControl::tell_database(tool_notify_t what, int toolno, int pocketno, const CANON_TOOL_TABLE &rec) {
     if (tooldata_db_active() && tooldata_db_notify(what, toolno, pocketno, rec) == 0) return true;
-    news_.push_back("the tool database program does not answer: what happened to tool " + std::to_string(toolno) + " is not kept");
+    news_.push_back("the tool database program does not answer: what happened to tool " + std::to_string(toolno) +
+                    " is not kept");
     return false;
 }
 
@@ -288,7 +294,8 @@ int IoControl::load_table(const char *file) {
         *pins_->tool_prep_index = tool.pocketPrepped < 0 ? 0 : tool.pocketPrepped;
         if (tool.pocketPrepped < 0) {
             *pins_->tool_prep_number = *pins_->tool_prep_pocket = 0;
-            news_.push_back("tool " + std::to_string(prepared.toolno) + " was prepared and is not in the table any more: call a tool again (T)");
+            news_.push_back("tool " + std::to_string(prepared.toolno) +
+                            " was prepared and is not in the table any more: call a tool again (T)");
         }
     }
     if (!random_ && stat_.io.tool.toolInSpindle != 0) {

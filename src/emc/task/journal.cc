@@ -62,14 +62,16 @@ std::string describe(const EMC_STAT &s, const std::string &program) {
     snprintf(line, sizeof line, "rotation %.6f\n", t.rotation_xy);
     text += line;
     text += "tool T" + std::to_string(s.io.tool.toolInSpindle) + words(t.toolOffset, mask) + "\n";
-    text += "codes" + codes(t.activeGCodes, EMC_ACTIVE_G_CODES, 'G') + codes(t.activeMCodes, EMC_ACTIVE_M_CODES, 'M') + "\n";
+    text += "codes" + codes(t.activeGCodes, EMC_ACTIVE_G_CODES, 'G') + codes(t.activeMCodes, EMC_ACTIVE_M_CODES, 'M') +
+            "\n";
     snprintf(line, sizeof line, "settings F%.6f S%.6f\n", t.activeSettings[1], t.activeSettings[2]);
     text += line;
     for (int i = 0; i < s.motion.traj.spindles; i++) {
         snprintf(line, sizeof line, "spindle %d %.6f\n", i, s.motion.spindle[i].speed);
         text += line;
     }
-    text += std::string("coolant mist ") + (s.io.coolant.mist ? "on" : "off") + " flood " + (s.io.coolant.flood ? "on" : "off") + "\n";
+    text += std::string("coolant mist ") + (s.io.coolant.mist ? "on" : "off") + " flood " +
+            (s.io.coolant.flood ? "on" : "off") + "\n";
     return text;
 }
 
@@ -129,7 +131,8 @@ void Journal::write_behind() {
         if (text.empty()) {
             unlink(file_.c_str());
         } else if (int fd = ::open(next.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644); fd >= 0) {
-            const bool good = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && fdatasync(fd) == 0;
+            const bool good =
+                write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && fdatasync(fd) == 0;
             close(fd);
             if (good) rename(next.c_str(), file_.c_str());
             else unlink(next.c_str());

@@ -62,7 +62,8 @@ int main(int argc, char **argv) {
     act.sa_handler = on_signal;
     sigaction(SIGINT, &act, nullptr);
     sigaction(SIGTERM, &act, nullptr);
-    if (struct sigaction hup; sigaction(SIGHUP, nullptr, &hup) == 0 && hup.sa_handler != SIG_IGN) // a terminal that is closed ends the machine in order
+    if (struct sigaction hup; sigaction(SIGHUP, nullptr, &hup) == 0 &&
+                              hup.sa_handler != SIG_IGN) // a terminal that is closed ends the machine in order
         sigaction(SIGHUP, &act, nullptr);
     signal(SIGPIPE, SIG_IGN);
     const Standby standby(args.ini_file.c_str());

@@ -164,7 +164,8 @@ int MotionLink::set_probe_errors(bool jog, bool home, int feed, int rapid, doubl
     return send(c);
 }
 
-int MotionLink::set_arc_blends(bool enable, bool fallback, int depth, int gap_cycles, double ramp_freq, double kink_ratio) {
+int MotionLink::set_arc_blends(bool enable, bool fallback, int depth, int gap_cycles, double ramp_freq,
+                               double kink_ratio) {
     emcmot_command_t c = command(EMCMOT_SETUP_ARC_BLENDS);
     c.arcBlendEnable = enable;
     c.arcBlendFallbackEnable = fallback;
@@ -327,8 +328,9 @@ int MotionLink::set_axis_locking_joint(int a, int j) {
     return send(c);
 }
 
-int MotionLink::set_spindle_params(int s, double max_forward, double min_forward, double max_reverse, double min_reverse, double home_search,
-                                   double home, int sequence, double increment) {
+int MotionLink::set_spindle_params(int s, double max_forward, double min_forward, double max_reverse,
+                                   double min_reverse, double home_search, double home, int sequence,
+                                   double increment) {
     emcmot_command_t c = command(EMCMOT_SET_SPINDLE_PARAMS);
     c.spindle = s;
     c.maxLimit = max_forward;
@@ -354,7 +356,9 @@ int MotionLink::abort() {
 }
 
 int MotionLink::set_mode(int traj_mode) {
-    emcmot_command_t c = command(traj_mode == EMC_TRAJ_MODE_COORD ? EMCMOT_COORD : traj_mode == EMC_TRAJ_MODE_TELEOP ? EMCMOT_TELEOP : EMCMOT_FREE);
+    emcmot_command_t c = command(traj_mode == EMC_TRAJ_MODE_COORD    ? EMCMOT_COORD
+                                 : traj_mode == EMC_TRAJ_MODE_TELEOP ? EMCMOT_TELEOP
+                                                                     : EMCMOT_FREE);
     return send_move(c);
 }
 
@@ -627,8 +631,11 @@ void MotionLink::update(std::string *error) {
     t.feed_override_enabled = enables & FS_ENABLED;
     t.adaptive_feed_enabled = enables & AF_ENABLED;
     t.feed_hold_enabled = enables & FH_ENABLED;
-    if (settling_ && s.heartbeat - settle_from_ >= 2) settling_ = false; // the second one has seen all that the command changed
-    t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT ? RCS_ERROR : t.inpos && t.queue == 0 && !settling_ ? RCS_DONE : RCS_EXEC;
+    if (settling_ && s.heartbeat - settle_from_ >= 2)
+        settling_ = false; // the second one has seen all that the command changed
+    t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT  ? RCS_ERROR
+               : t.inpos && t.queue == 0 && !settling_ ? RCS_DONE
+                                                       : RCS_EXEC;
     if (config_changed) {
         t.maxVelocity = config_.limitVel;
         t.cycleTime = config_.trajCycleTime;
@@ -653,7 +660,8 @@ void MotionLink::update(std::string *error) {
         j.maxHardLimit = (from.flag & EMCMOT_JOINT_MAX_HARD_LIMIT_BIT) != 0;
         j.overrideLimits = s.overrideLimitMask != 0;
         bool failed = from.flag & EMCMOT_JOINT_ERROR_BIT;
-        if (failed && !joint_error_shown_[n]) rcs_print_error("Error on joint %d, command number %d\n", n, s.commandNumEcho);
+        if (failed && !joint_error_shown_[n])
+            rcs_print_error("Error on joint %d, command number %d\n", n, s.commandNumEcho);
         joint_error_shown_[n] = failed;
         j.status = failed ? RCS_ERROR : j.inpos ? RCS_DONE : RCS_EXEC;
         if (config_changed) {

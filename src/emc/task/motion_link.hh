@@ -73,8 +73,8 @@ public:
     int set_axis_max_acceleration(int a, double v, double ext_offset);
     int set_axis_max_jerk(int a, double v);
     int set_axis_locking_joint(int a, int j);
-    int set_spindle_params(int s, double max_forward, double min_forward, double max_reverse, double min_reverse, double home_search,
-                           double home, int sequence, double increment);
+    int set_spindle_params(int s, double max_forward, double min_forward, double max_reverse, double min_reverse,
+                           double home_search, double home, int sequence, double increment);
 
     // ---- machine ----
     int abort();  // stops all jogs and the trajectory
@@ -133,7 +133,8 @@ private:
     int spindle_order(int spindle, double speed, double factor, double xoffset);
     EMC_STAT &stat_;
     emcmot_status_t statuses_[2] = {};
-    emcmot_status_t *status_ = &statuses_[0], *next_status_ = &statuses_[1]; // the last whole one; the other is read into
+    emcmot_status_t *status_ = &statuses_[0],
+                    *next_status_ = &statuses_[1]; // the last whole one; the other is read into
     emcmot_config_t config_{};
     int id_ = 0, config_num_ = -1;
     bool attached_ = false;

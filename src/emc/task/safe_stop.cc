@@ -6,7 +6,8 @@
 // task holds open. A byte: task ended in order, and so does this. The end of the pipe: task is dead.
 //
 // In:     motion's command block
-// Out:    motion aborted and disabled, spindles and digital outputs off. What task's pins fed falls when HAL removes its
+// Out:    motion aborted and disabled, spindles and digital outputs off. What task's pins fed falls when HAL
+//         removes its
 //         component, at the latest now (hal_init)
 // Thread: [task]; never beside a task that lives
 #include <unistd.h>

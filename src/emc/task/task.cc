@@ -67,7 +67,8 @@ bool Task::connect_channels() {
     };
     for (const nml::BufferLine &b : nml::buffers_of(nml ? nml : default_nml_config_file()))
         if (b.name == "emcMessages" && !connect("emcMessages", &log_channel_)) return false;
-    return connect("emcCommand", &command_channel_) && connect("emcStatus", &status_channel_) && connect("emcError", &error_channel_);
+    return connect("emcCommand", &command_channel_) && connect("emcStatus", &status_channel_) &&
+           connect("emcError", &error_channel_);
 }
 
 // The built-in interpreter, or the one of the library [TASK]INTERPRETER names; null with a message.
@@ -114,7 +115,8 @@ bool Task::start() {
     debug_ = static_cast<unsigned>(set_rcs_print(ini_));
     stat_.debug = static_cast<int>(debug_);
     if (debug_ & EMC_DEBUG_CONFIG)
-        rcs_print("task: machine '%s' version '%s'\n", ini_.findStringV("MACHINE", "EMC", "<unknown>").c_str(), ini_.findStringV("VERSION", "EMC", "unknown").c_str());
+        rcs_print("task: machine '%s' version '%s'\n", ini_.findStringV("MACHINE", "EMC", "<unknown>").c_str(),
+                  ini_.findStringV("VERSION", "EMC", "unknown").c_str());
     if (auto t = ini_.findReal("CYCLE_TIME", "TASK")) cycle_time_ = *t;
     else rcs_print("[TASK] CYCLE_TIME not found in %s; using default %f\n", ini_file_.c_str(), cycle_time_);
     if (int n = ini_.findIntV("INTERP_MAX_LEN", "TASK", 1000); n > 0) interp_max_len_ = static_cast<size_t>(n);
@@ -135,7 +137,13 @@ bool Task::start() {
     for (int &c : stat_.task.activeGCodes) c = -1;
     for (int &c : stat_.task.activeMCodes) c = -1;
     copy_text(stat_.task.ini_filename, ini_file_.c_str());
-    for (auto &j : stat_.motion.joint) { j.minPositionLimit = -1; j.maxPositionLimit = 1; j.units = 1; j.inpos = 1; j.jointType = EMC_LINEAR; }
+    for (auto &j : stat_.motion.joint) {
+        j.minPositionLimit = -1;
+        j.maxPositionLimit = 1;
+        j.units = 1;
+        j.inpos = 1;
+        j.jointType = EMC_LINEAR;
+    }
     for (auto &a : stat_.motion.axis) { a.minPositionLimit = -1; a.maxPositionLimit = 1; }
     for (auto &s : stat_.motion.spindle) { s.brake = 1; s.spindle_scale = 1; }
 
@@ -152,7 +160,8 @@ bool Task::start() {
     int64_t patience = wall_ns() + MOTION_PATIENCE_NS;
     while (!(motion_.attach(ini_) && motion_.alive())) {
         if (wall_ns() > patience) {
-            rcs_print_error("can't connect to motion: no motion module was loaded, or its functions are in no running thread\n");
+            rcs_print_error(
+                "can't connect to motion: no motion module was loaded, or its functions are in no running thread\n");
             return false;
         }
         timespec nap{0, 300'000};
@@ -203,7 +212,8 @@ bool Task::start() {
 
 // Tells the operator what a power cut or a crash has interrupted.
 void Task::open_journal() {
-    std::string file = ini_.findStringV("JOURNAL", "TASK", canon_settings_.parameter_file.empty() ? "" : canon_settings_.parameter_file + ".journal");
+    std::string file = ini_.findStringV(
+        "JOURNAL", "TASK", canon_settings_.parameter_file.empty() ? "" : canon_settings_.parameter_file + ".journal");
     if (strcasecmp(file.c_str(), "none") == 0) file.clear();
     const std::string left = journal_.open(file);
     if (left.empty()) return;
@@ -214,8 +224,10 @@ void Task::open_journal() {
         return left.substr(from, left.find('\n', from) - from);
     };
     const std::string program = after("program");
-    operator_display(("The last run was cut off at line " + after("line") + " of " + program.substr(program.rfind('/') + 1) + " (" + after("time") + ", position " +
-                      after("position") + "). Home the machine, open the program and start at that line; all of it is in " + file)
+    operator_display(("The last run was cut off at line " + after("line") + " of " +
+                      program.substr(program.rfind('/') + 1) + " (" + after("time") + ", position " +
+                      after("position") +
+                      "). Home the machine, open the program and start at that line; all of it is in " + file)
                          .substr(0, LINELEN - 1)
                          .c_str());
     rcs_print("%s", left.c_str());
@@ -239,7 +251,8 @@ void Task::run(const volatile int *stop) {
         least = std::min(least, took);
         most = std::max(most, took);
         total += took;
-        if (cycle_time_ > 0 && took > 10 * cycle_time_ && ++excursions <= 10 && !quiet) rcs_print("task: main loop took %.6f seconds\n", took);
+        if (cycle_time_ > 0 && took > 10 * cycle_time_ && ++excursions <= 10 && !quiet)
+            rcs_print("task: main loop took %.6f seconds\n", took);
         eager = eager_ ? eager + 1 : 0;
         if ((!eager_ || eager >= MOST_EAGER) && cycle_time_ > 0) {
             eager = 0;
@@ -248,8 +261,9 @@ void Task::run(const volatile int *stop) {
         io_.cycle();
     }
     double cycles = cycles_ ? static_cast<double>(cycles_) : 1;
-    rcs_print("task: %lu cycles, min=%.6f, max=%.6f, avg=%.6f, %u latency excursions (> %dx expected cycle time of %.6fs)\n", cycles_, least, most,
-              total / cycles, excursions, 10, cycle_time_);
+    rcs_print(
+        "task: %lu cycles, min=%.6f, max=%.6f, avg=%.6f, %u latency excursions (> %dx expected cycle time of %.6fs)\n",
+        cycles_, least, most, total / cycles, excursions, 10, cycle_time_);
 }
 
 void Task::shutdown() {
@@ -283,7 +297,8 @@ void Task::cycle() {
     watch_program_error();
     watch_jogs();
     watch_control();
-    journal_.update(stat_, program_, stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE);
+    journal_.update(stat_, program_,
+                    stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE);
     send_messages();
     publish();
 }
@@ -329,7 +344,8 @@ void Task::watch_enable() {
 void Task::watch_estop() {
     if (chain_due_ != 0 && kerf_clock_now_ns() >= chain_due_) {
         chain_due_ = 0;
-        if (stat_.io.aux.estop) operator_error("Emergency stop was reset but the chain is open: iocontrol.0.emc-enable-in is FALSE");
+        if (stat_.io.aux.estop)
+            operator_error("Emergency stop was reset but the chain is open: iocontrol.0.emc-enable-in is FALSE");
     }
     if (!stat_.io.aux.estop) return;
     if (stat_.motion.traj.enabled) {
@@ -356,7 +372,8 @@ void Task::watch_errors() {
     for (const std::string &text : io_.news()) operator_error(text.c_str());
     bool io_failed = stat_.io.status == RCS_ERROR;
     if (io_failed && stat_.io.reason > 0) { // a soft fault: the program goes on
-        if (!soft_fault_shown_) rcs_print("M6: toolchanger soft fault=%d, reason=%d\n", stat_.io.fault, stat_.io.reason);
+        if (!soft_fault_shown_)
+            rcs_print("M6: toolchanger soft fault=%d, reason=%d\n", stat_.io.fault, stat_.io.reason);
         soft_fault_shown_ = true;
         stat_.io.status = RCS_DONE;
         io_failed = false;
@@ -368,7 +385,8 @@ void Task::watch_errors() {
         operator_error(text);
     }
     command_failed(); // also for who looks later
-    failed_at(stat_.motion.status == RCS_ERROR && stat_.task.motionLine > 0 ? stat_.task.motionLine : stat_.task.currentLine);
+    failed_at(stat_.motion.status == RCS_ERROR && stat_.task.motionLine > 0 ? stat_.task.motionLine
+                                                                            : stat_.task.currentLine);
     abort_task();
     io_.abort(EMC_ABORT_MOTION_OR_IO_RCS_ERROR);
     spindles_off_after_fault();
@@ -407,8 +425,10 @@ void Task::watch_jogs() {
     for (const JogOwners::Jog &j : jog_owners_.orphans()) {
         if (!stat_.motion.jogging_active) continue; // it was over
         motion_.jog_stop(j.first, j.second);
-        operator_error((std::string("Jog of ") + (j.second ? "joint " : "axis ") + (j.second ? std::to_string(j.first) : std::string(1, "XYZABCUVW"[j.first])) +
-                        " stopped: the program that started it has ended").c_str());
+        operator_error((std::string("Jog of ") + (j.second ? "joint " : "axis ") +
+                        (j.second ? std::to_string(j.first) : std::string(1, "XYZABCUVW"[j.first])) +
+                        " stopped: the program that started it has ended")
+                           .c_str());
     }
 }
 
@@ -429,9 +449,12 @@ void Task::publish() {
     EMC_TASK_STAT &t = stat_.task;
     const EMC_TRAJ_STAT &traj = stat_.motion.traj;
 
-    t.mode = traj.mode == EMC_TRAJ_MODE_COORD ? requested_mode_ == EMC_TASK_MODE_AUTO ? EMC_TASK_MODE_AUTO : EMC_TASK_MODE_MDI
-                                              : EMC_TASK_MODE_MANUAL;
-    t.state = stat_.io.aux.estop ? EMC_TASK_STATE_ESTOP : !traj.enabled ? EMC_TASK_STATE_ESTOP_RESET : EMC_TASK_STATE_ON;
+    t.mode = traj.mode == EMC_TRAJ_MODE_COORD
+                 ? requested_mode_ == EMC_TASK_MODE_AUTO ? EMC_TASK_MODE_AUTO : EMC_TASK_MODE_MDI
+                 : EMC_TASK_MODE_MANUAL;
+    t.state = stat_.io.aux.estop ? EMC_TASK_STATE_ESTOP
+              : !traj.enabled    ? EMC_TASK_STATE_ESTOP_RESET
+                                 : EMC_TASK_STATE_ON;
     bool on = t.state == EMC_TASK_STATE_ON;
     if (was_on_ && !on) {
         control_.release();
@@ -445,7 +468,9 @@ void Task::publish() {
     if (traj.id > 0) t.motionLine = traj.id;
     if (debug_ & EMC_DEBUG_MOTION_TIME && traj.id != last_motion_id_) {
         int64_t now = kerf_clock_now_ns();
-        if (last_motion_id_ != 0) rcs_print("Motion id %d took %f seconds.\n", last_motion_id_, static_cast<double>(now - motion_id_since_) / 1e9);
+        if (last_motion_id_ != 0)
+            rcs_print("Motion id %d took %f seconds.\n", last_motion_id_,
+                      static_cast<double>(now - motion_id_since_) / 1e9);
         motion_id_since_ = now;
     }
     last_motion_id_ = traj.id;
@@ -454,7 +479,8 @@ void Task::publish() {
     show_mdi_queue();
 
     bool busy = t.interpState != EMC_TASK_INTERP_IDLE;
-    bool from_tag = busy && t.mode == EMC_TASK_MODE_AUTO && Interp::active_modes(t.activeGCodes, t.activeMCodes, t.activeSettings, traj.tag);
+    bool from_tag = busy && t.mode == EMC_TASK_MODE_AUTO &&
+                    Interp::active_modes(t.activeGCodes, t.activeMCodes, t.activeSettings, traj.tag);
     if (from_tag) running_tag_ = traj.tag; // motion drops it when it stops by itself
     if (!from_tag) {
         interp_->active_g_codes(t.activeGCodes);
@@ -472,8 +498,10 @@ void Task::publish() {
     stat_.echo_serial_number = t.echo_serial_number = serial;
     stat_.command_type = t.command_type = type;
     int status;
-    const bool done = idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() && !busy && restore_ != Restore::looking;
-    if (plan_error_ || refused_stranger_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR || stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
+    const bool done = idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() &&
+                      !busy && restore_ != Restore::looking;
+    if (plan_error_ || refused_stranger_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR ||
+        stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
         status = RCS_ERROR;
     else
         status = done ? RCS_DONE : RCS_EXEC;
@@ -487,7 +515,8 @@ void Task::publish() {
 // ---- stopping ----
 
 void Task::set_exec(int state) {
-    if (stat_.task.execState == EMC_TASK_EXEC_WAITING_FOR_SYSTEM_CMD && state != EMC_TASK_EXEC_WAITING_FOR_SYSTEM_CMD) child_.interrupt();
+    if (stat_.task.execState == EMC_TASK_EXEC_WAITING_FOR_SYSTEM_CMD && state != EMC_TASK_EXEC_WAITING_FOR_SYSTEM_CMD)
+        child_.interrupt();
     if (state != EMC_TASK_EXEC_WAITING_FOR_DELAY) stat_.task.delayLeft = 0;
     stat_.task.execState = state;
 }
@@ -525,7 +554,8 @@ void Task::abort_task() {
         canon_->spindle_is(-1, 0); // the S word of what is restored starts nothing
         interp_->restore_offsets(executed_offsets_.values, t.toolOffset);
         interp_->restore_from_tag(tag);
-        interp_->restore_offsets(executed_offsets_.values, t.toolOffset); // the tag may be of a move before the last change
+        interp_->restore_offsets(executed_offsets_.values,
+                                 t.toolOffset); // the tag may be of a move before the last change
         read_offsets_ = executed_offsets_;
     } else {
         forget_offsets();
@@ -548,7 +578,8 @@ void Task::stop_stepping() {
 
 // With the machine off by a fault of a joint they may have to turn until the joints stand.
 void Task::spindles_off_after_fault() {
-    if (stat_.io.aux.estop || !fault_stop_.begin(motion_.stop_causes(), stat_.motion, kerf_clock_now_ns())) all_spindles_off();
+    if (stat_.io.aux.estop || !fault_stop_.begin(motion_.stop_causes(), stat_.motion, kerf_clock_now_ns()))
+        all_spindles_off();
 }
 
 void Task::watch_fault_stop() {
@@ -567,8 +598,10 @@ int Task::joint_on_switch() const {
 int Task::override_limits(int joint) {
     const int j = joint_on_switch();
     if (joint < 0 || j < 0 || fault_stop_.retract() != FaultStop::Retract::NO) return motion_.override_limits(joint);
-    operator_error(("Joint " + std::to_string(j) + " stands on its limit switch, which this machine does not leave under power "
-                    "([TASK]LIMIT_SWITCH_RETRACT = NO): move it by hand").c_str());
+    operator_error(("Joint " + std::to_string(j) +
+                    " stands on its limit switch, which this machine does not leave under power "
+                    "([TASK]LIMIT_SWITCH_RETRACT = NO): move it by hand")
+                       .c_str());
     return -1;
 }
 
@@ -576,7 +609,9 @@ int Task::override_limits(int joint) {
 bool Task::leave_limit_switch() {
     const int j = joint_on_switch();
     if (j < 0 || fault_stop_.retract() != FaultStop::Retract::AUTO) return true;
-    operator_text(("Joint " + std::to_string(j) + " stands on its limit switch: limits are overridden until the first jog ends").c_str());
+    operator_text(
+        ("Joint " + std::to_string(j) + " stands on its limit switch: limits are overridden until the first jog ends")
+            .c_str());
     return motion_.override_limits(j) == 0;
 }
 

@@ -196,7 +196,10 @@ private:
     bool error_stop_due_ = false; // a program ended by an error: its outputs are still on
     int64_t error_stop_at_ = 0;
     std::string program_;        // opened last
-    struct FileId { long long seconds = 0, nanoseconds = 0, size = -1; unsigned long long inode = 0; } program_id_; // its state then
+    struct FileId {
+        long long seconds = 0, nanoseconds = 0, size = -1;
+        unsigned long long inode = 0;
+    } program_id_; // its state then
     static FileId identity(const std::string &file);
     // Start at a line: what was asked, and how things stood then.
     enum class Restore { none, looking, shown, tool } restore_ = Restore::none;

@@ -17,7 +17,9 @@ namespace {
 constexpr int X = 0, A = 3, B = 4, C = 5, U = 6, W = 8;
 constexpr double TINY = 1e-8; // machine units: below it an axis does not move (CART_FUZZ)
 
-std::array<double, 9> as_array(const EmcPose &p) { return {p.tran.x, p.tran.y, p.tran.z, p.a, p.b, p.c, p.u, p.v, p.w}; }
+std::array<double, 9> as_array(const EmcPose &p) {
+    return {p.tran.x, p.tran.y, p.tran.z, p.a, p.b, p.c, p.u, p.v, p.w};
+}
 
 bool rotary(int axis) { return axis >= A && axis <= C; }
 
@@ -183,7 +185,9 @@ TaskCanon::Path TaskCanon::straight_velocity(const EmcPose &p) const {
     return r;
 }
 
-TaskCanon::Path TaskCanon::straight_acceleration(const EmcPose &p) const { return straight_limit(p, limits_.acceleration, false); }
+TaskCanon::Path TaskCanon::straight_acceleration(const EmcPose &p) const {
+    return straight_limit(p, limits_.acceleration, false);
+}
 TaskCanon::Path TaskCanon::straight_jerk(const EmcPose &p) const { return straight_limit(p, limits_.jerk, true); }
 
 double TaskCanon::path_to_machine(const Path &p, double value) const {
@@ -195,7 +199,8 @@ double TaskCanon::path_to_machine(const Path &p, double value) const {
 bool TaskCanon::linkable(const EmcPose &p) const {
     if (motion_mode_ != CANON_CONTINUOUS || naivecam_tolerance_ == 0 || chain_.size() > 100) return false;
     const EmcPose &last = chain_.back().pose;
-    if (last.a != p.a || last.b != p.b || last.c != p.c || last.u != p.u || last.v != p.v || last.w != p.w) return false;
+    if (last.a != p.a || last.b != p.b || last.c != p.c || last.u != p.u || last.v != p.v || last.w != p.w)
+        return false;
     double mx = p.tran.x - end_.tran.x, my = p.tran.y - end_.tran.y, mz = p.tran.z - end_.tran.z;
     double mm = mx * mx + my * my + mz * mz;
     if (mm == 0) return false;
@@ -209,7 +214,8 @@ bool TaskCanon::linkable(const EmcPose &p) const {
 
 void TaskCanon::chain(int line, const EmcPose &p) {
     if (!chain_.empty() && !linkable(p)) flush();
-    bool others_move = p.a != end_.a || p.b != end_.b || p.c != end_.c || p.u != end_.u || p.v != end_.v || p.w != end_.w;
+    bool others_move =
+        p.a != end_.a || p.b != end_.b || p.c != end_.c || p.u != end_.u || p.v != end_.v || p.w != end_.w;
     chain_.push_back({p, line, tag_});
     if (others_move) flush();
 }
@@ -325,17 +331,20 @@ int TaskCanon::LOCK_ROTARY(int, int) {
     return 0;
 }
 
-// FP-022: a tap runs along the plane's normal. Where its line names a place aside, the tool traverses there first, at the
+// FP-022: a tap runs along the plane's normal. Where its line names a place aside, the tool traverses there
+// first, at the
 // height it has, and back afterwards: for the interpreter the position stays the one before the line.
 bool TaskCanon::beside_the_tap(const EmcPose &end, EmcPose *over) const {
     constexpr double ROUNDING = 1e-6; // mm
-    double n[3] = {plane_ == CANON_PLANE_YZ ? 1.0 : 0.0, plane_ == CANON_PLANE_XZ ? 1.0 : 0.0, plane_ == CANON_PLANE_XY ? 1.0 : 0.0};
+    double n[3] = {plane_ == CANON_PLANE_YZ ? 1.0 : 0.0, plane_ == CANON_PLANE_XZ ? 1.0 : 0.0,
+                   plane_ == CANON_PLANE_XY ? 1.0 : 0.0};
     rotate(&n[0], &n[1], rotation_);
     PmCartesian to = end.tran, at = end_.tran;
     double depth = (to.x - at.x) * n[0] + (to.y - at.y) * n[1] + (to.z - at.z) * n[2];
     *over = end;
     over->tran = {to.x - depth * n[0], to.y - depth * n[1], to.z - depth * n[2]};
-    return std::fabs(depth) > ROUNDING && std::hypot(over->tran.x - at.x, over->tran.y - at.y, over->tran.z - at.z) > ROUNDING;
+    return std::fabs(depth) > ROUNDING &&
+           std::hypot(over->tran.x - at.x, over->tran.y - at.y, over->tran.z - at.z) > ROUNDING;
 }
 
 void TaskCanon::RIGID_TAP(int line, double x, double y, double z, double scale) {
@@ -487,12 +496,15 @@ void TaskCanon::SET_FEED_RATE(double rate) {
     angular_feed_ = angular;
 }
 
-void TaskCanon::SET_MOTION_CONTROL_MODE(CANON_MOTION_MODE mode, double tolerance, int planner_type, double scurve_peak_scale) {
+void TaskCanon::SET_MOTION_CONTROL_MODE(CANON_MOTION_MODE mode, double tolerance, int planner_type,
+                                        double scurve_peak_scale) {
     flush();
     motion_mode_ = mode;
     motion_tolerance_ = from_program_length(tolerance);
     EMC_TRAJ_SET_TERM_COND m;
-    m.cond = mode == CANON_CONTINUOUS ? EMCMOT_TERM_COND_BLEND : mode == CANON_EXACT_PATH ? EMCMOT_TERM_COND_EXACT : EMCMOT_TERM_COND_STOP;
+    m.cond = mode == CANON_CONTINUOUS   ? EMCMOT_TERM_COND_BLEND
+             : mode == CANON_EXACT_PATH ? EMCMOT_TERM_COND_EXACT
+                                        : EMCMOT_TERM_COND_STOP;
     if (mode == CANON_CONTINUOUS) m.tolerance = motion_tolerance_ * linear_scale();
     m.planner_type = planner_type;
     m.scurve_peak_scale = scurve_peak_scale;
@@ -534,7 +546,8 @@ template <class T> void TaskCanon::fill_speed(T *m, int spindle) {
     m->spindle = spindle;
     if (s.css_maximum != 0) {
         double u = linear_scale();
-        double k = units_ == CANON_UNITS_INCHES ? 12 / (2 * M_PI) * s.speed * (25.4 * u) : 1000 / (2 * M_PI) * s.speed * u;
+        double k =
+            units_ == CANON_UNITS_INCHES ? 12 / (2 * M_PI) * s.speed * (25.4 * u) : 1000 / (2 * M_PI) * s.speed * u;
         s.css_factor = s.dir * k;
         m->speed = s.dir * s.css_maximum;
         m->factor = s.css_factor;
@@ -546,7 +559,8 @@ template <class T> void TaskCanon::fill_speed(T *m, int spindle) {
 }
 
 void TaskCanon::SET_SPINDLE_MODE(int spindle, double css_max) {
-    if (spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES) spindle_[static_cast<size_t>(spindle)].css_maximum = std::fabs(css_max);
+    if (spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES)
+        spindle_[static_cast<size_t>(spindle)].css_maximum = std::fabs(css_max);
 }
 
 void TaskCanon::SET_SPINDLE_SPEED(int spindle, double speed) {
@@ -608,8 +622,8 @@ void TaskCanon::WAIT_SPINDLE_ORIENT_COMPLETE(int spindle, double timeout_s) {
 
 // ---- tools ----
 
-void TaskCanon::SET_TOOL_TABLE_ENTRY(int idx, int toolno, const EmcPose &offset, double diameter, double frontangle, double backangle,
-                                     int orientation) {
+void TaskCanon::SET_TOOL_TABLE_ENTRY(int idx, int toolno, const EmcPose &offset, double diameter, double frontangle,
+                                     double backangle, int orientation) {
     flush();
     EMC_TOOL_SET_OFFSET m;
     m.pocket = idx;
@@ -683,9 +697,10 @@ void TaskCanon::COMMENT(const char *text) {
         double r, p, y;
         if (sscanf(text, "RPY %lf %lf %lf", &r, &p, &y) == 3) {
             // Unit quaternion of roll, pitch, yaw about fixed axes (radians).
-            double cr = std::cos(r / 2), sr = std::sin(r / 2), cp = std::cos(p / 2), sp = std::sin(p / 2), cy = std::cos(y / 2), sy = std::sin(y / 2);
-            printf("rpy = %f %f %f, quat = %f %f %f %f\n", r, p, y, cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy,
-                   cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy);
+            double cr = std::cos(r / 2), sr = std::sin(r / 2), cp = std::cos(p / 2), sp = std::sin(p / 2),
+                   cy = std::cos(y / 2), sy = std::sin(y / 2);
+            printf("rpy = %f %f %f, quat = %f %f %f %f\n", r, p, y, cr * cp * cy + sr * sp * sy,
+                   sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy);
         }
     }
 }
@@ -760,7 +775,9 @@ void TaskCanon::feed_hold(int on) {
 }
 
 // The message has a byte for it: numbers beyond stay numbers that no output has.
-static unsigned char output_number(int index) { return static_cast<unsigned char>(index < 0 || index > 255 ? 255 : index); }
+static unsigned char output_number(int index) {
+    return static_cast<unsigned char>(index < 0 || index > 255 ? 255 : index);
+}
 
 void TaskCanon::output_bit(int index, int value, int now) {
     flush();
@@ -801,7 +818,9 @@ void TaskCanon::USER_DEFINED_FUNCTION(int num, double p, double q) {
 
 // ---- what the machine says ----
 
-double TaskCanon::GET_EXTERNAL_FEED_RATE() { return feed_mode_ == 1 ? linear_feed_ : to_program_length(linear_feed_) * 60; }
+double TaskCanon::GET_EXTERNAL_FEED_RATE() {
+    return feed_mode_ == 1 ? linear_feed_ : to_program_length(linear_feed_) * 60;
+}
 
 double TaskCanon::GET_EXTERNAL_TRAVERSE_RATE() {
     double u = linear_scale();
@@ -822,7 +841,8 @@ EmcPose TaskCanon::GET_EXTERNAL_PROBE_POSITION() {
     if (probe_log_) {
         std::array<double, 9> now = as_array(p);
         if (now != as_array(last_probed_)) {
-            fprintf(probe_log_, "%f %f %f %f %f %f %f %f %f\n", now[0], now[1], now[2], now[3], now[4], now[5], now[6], now[7], now[8]);
+            fprintf(probe_log_, "%f %f %f %f %f %f %f %f %f\n", now[0], now[1], now[2], now[3], now[4], now[5], now[6],
+                    now[7], now[8]);
             fflush(probe_log_);
             last_probed_ = p;
         }
@@ -836,7 +856,8 @@ bool TaskCanon::GET_EXTERNAL_QUEUE_EMPTY() {
 }
 
 CANON_DIRECTION TaskCanon::GET_EXTERNAL_SPINDLE(int spindle) {
-    if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || stat_->motion.spindle[spindle].speed == 0) return CANON_STOPPED;
+    if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES || stat_->motion.spindle[spindle].speed == 0)
+        return CANON_STOPPED;
     return stat_->motion.spindle[spindle].speed > 0 ? CANON_CLOCKWISE : CANON_COUNTERCLOCKWISE;
 }
 

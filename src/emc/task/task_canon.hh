@@ -65,7 +65,8 @@ public:
     void SELECT_PLANE(CANON_PLANE plane) override { plane_ = plane; }
     void SET_FEED_MODE(int spindle, int mode) override;
     void SET_FEED_RATE(double rate) override;
-    void SET_MOTION_CONTROL_MODE(CANON_MOTION_MODE mode, double tolerance, int planner_type, double scurve_peak_scale) override;
+    void SET_MOTION_CONTROL_MODE(CANON_MOTION_MODE mode, double tolerance, int planner_type,
+                                 double scurve_peak_scale) override;
     void SET_NAIVECAM_TOLERANCE(double tolerance) override;
     void USE_TOOL_LENGTH_OFFSET(const EmcPose &offset) override;
     void CANON_UPDATE_END_POINT(const EmcPose &position) override;
@@ -76,9 +77,10 @@ public:
     void STRAIGHT_FEED(int line, const EmcPose &end) override;
     void ARC_FEED(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation,
                   double axis_end_point, const EmcPose &end) override;
-    void NURBS_G5_FEED(int line, const std::vector<NURBS_CONTROL_POINT> &points, unsigned order, CANON_PLANE plane) override;
-    void NURBS_G6_FEED(int line, const std::vector<NURBS_G6_CONTROL_POINT> &points, unsigned order, double feedrate, int q_option,
+    void NURBS_G5_FEED(int line, const std::vector<NURBS_CONTROL_POINT> &points, unsigned order,
                        CANON_PLANE plane) override;
+    void NURBS_G6_FEED(int line, const std::vector<NURBS_G6_CONTROL_POINT> &points, unsigned order, double feedrate,
+                       int q_option, CANON_PLANE plane) override;
     void RIGID_TAP(int line, double x, double y, double z, double scale) override;
     void STRAIGHT_PROBE(int line, const EmcPose &end, unsigned char type) override;
     void TURN_PROBE_ON() override;
@@ -90,14 +92,18 @@ public:
 
     void SET_SPINDLE_MODE(int spindle, double css_max) override;
     void SET_SPINDLE_SPEED(int spindle, double speed) override;
-    void START_SPINDLE_CLOCKWISE(int spindle, int wait_for_atspeed) override { start_spindle(spindle, 1, wait_for_atspeed); }
-    void START_SPINDLE_COUNTERCLOCKWISE(int spindle, int wait_for_atspeed) override { start_spindle(spindle, -1, wait_for_atspeed); }
+    void START_SPINDLE_CLOCKWISE(int spindle, int wait_for_atspeed) override {
+        start_spindle(spindle, 1, wait_for_atspeed);
+    }
+    void START_SPINDLE_COUNTERCLOCKWISE(int spindle, int wait_for_atspeed) override {
+        start_spindle(spindle, -1, wait_for_atspeed);
+    }
     void STOP_SPINDLE_TURNING(int spindle, int wait_for_atspeed) override;
     void ORIENT_SPINDLE(int spindle, double degrees, int direction) override;
     void WAIT_SPINDLE_ORIENT_COMPLETE(int spindle, double timeout_s) override;
 
-    void SET_TOOL_TABLE_ENTRY(int idx, int toolno, const EmcPose &offset, double diameter, double frontangle, double backangle,
-                              int orientation) override;
+    void SET_TOOL_TABLE_ENTRY(int idx, int toolno, const EmcPose &offset, double diameter, double frontangle,
+                              double backangle, int orientation) override;
     void SELECT_TOOL(int toolno) override;
     void CHANGE_TOOL() override;
     void CHANGE_TOOL_NUMBER(int idx) override;
@@ -129,7 +135,9 @@ public:
     void SET_MOTION_OUTPUT_VALUE(int i, double v) override { output_value(i, v, 0); }
     void SET_AUX_OUTPUT_VALUE(int i, double v) override { output_value(i, v, 1); }
     int WAIT(int index, CANON_INPUT input, CANON_WAIT wait, double timeout_s) override;
-    bool USER_DEFINED_FUNCTION_EXISTS(int num) override { return num >= 0 && num < USER_DEFINED_FUNCTION_NUM && user_code_exists && user_code_exists(num); }
+    bool USER_DEFINED_FUNCTION_EXISTS(int num) override {
+        return num >= 0 && num < USER_DEFINED_FUNCTION_NUM && user_code_exists && user_code_exists(num);
+    }
     void USER_DEFINED_FUNCTION(int num, double p, double q) override;
 
     void SET_BLOCK_DELETE(bool on) override { block_delete = on; }
@@ -158,7 +166,9 @@ public:
     EmcPose GET_EXTERNAL_PROBE_POSITION() override;
     int GET_EXTERNAL_PROBE_TRIPPED_VALUE() override { return stat_->motion.traj.probe_tripped; }
     bool GET_EXTERNAL_QUEUE_EMPTY() override;
-    double GET_EXTERNAL_SPEED(int spindle) override { return spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES ? spindle_[spindle].speed : 0; }
+    double GET_EXTERNAL_SPEED(int spindle) override {
+        return spindle >= 0 && spindle < EMCMOT_MAX_SPINDLES ? spindle_[spindle].speed : 0;
+    }
     CANON_DIRECTION GET_EXTERNAL_SPINDLE(int spindle) override;
     EmcPose GET_EXTERNAL_TOOL_LENGTH_OFFSET() override { return to_program(tool_offset_); }
     int GET_EXTERNAL_TOOL_SLOT() override;
@@ -197,7 +207,9 @@ private:
     struct Spindle { double speed = 0, css_maximum = 0, css_factor = 0; int dir = 0; bool synched = false; };
 
     // Units
-    double program_factor() const { return units_ == CANON_UNITS_INCHES ? 25.4 : units_ == CANON_UNITS_CM ? 10.0 : 1.0; }
+    double program_factor() const {
+        return units_ == CANON_UNITS_INCHES ? 25.4 : units_ == CANON_UNITS_CM ? 10.0 : 1.0;
+    }
     double from_program_length(double v) const { return v * program_factor(); }
     double to_program_length(double v) const { return v / program_factor(); }
     double linear_scale() const;  // machine units per mm
@@ -233,7 +245,8 @@ private:
     bool beside_the_tap(const EmcPose &end, EmcPose *over) const;
     void machine_move(const EmcPose &machine, double feed);
     void straight_segment(int line, const EmcPose &p, const state_tag_t &tag);
-    void arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation, double axis_end, const EmcPose &end);
+    void arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation,
+             double axis_end, const EmcPose &end);
     void sync_off_for_move();
     void sync_on_after_move();
     void start_spindle(int spindle, int dir, int wait);

@@ -19,8 +19,8 @@ double dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 } // namespace
 
-void TaskCanon::ARC_FEED(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation,
-                         double axis_end_point, const EmcPose &end) {
+void TaskCanon::ARC_FEED(int line, double first_end, double second_end, double first_axis, double second_axis,
+                         int rotation, double axis_end_point, const EmcPose &end) {
     if (plane_ == CANON_PLANE_UV || plane_ == CANON_PLANE_VW || plane_ == CANON_PLANE_UW) {
         CANON_ERROR("Can't set plane in UVW axes, assuming XY");
         plane_ = CANON_PLANE_XY;
@@ -58,8 +58,8 @@ void TaskCanon::ARC_FEED(int line, double first_end, double second_end, double f
     arc(line, first_end, second_end, first_axis, second_axis, rotation, axis_end_point, end);
 }
 
-void TaskCanon::arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation, double axis_end,
-                    const EmcPose &end) {
+void TaskCanon::arc(int line, double first_end, double second_end, double first_axis, double second_axis, int rotation,
+                    double axis_end, const EmcPose &end) {
     double c = std::cos(rotation_ * M_PI / 180), s = std::sin(rotation_ * M_PI / 180);
     const V3 rot_x{c, s, 0}, rot_y{0 - s, c, 0}, z{0, 0, 1}; // no -0
     V3 first, second, normal;
@@ -83,7 +83,8 @@ void TaskCanon::arc(int line, double first_end, double second_end, double first_
 
     V3 cs{end_.tran.x - center.tran.x, end_.tran.y - center.tran.y, end_.tran.z - center.tran.z};
     V3 ce{to.tran.x - center.tran.x, to.tran.y - center.tran.y, to.tran.z - center.tran.z};
-    double theta_start = std::atan2(dot(cs, second), dot(cs, first)), theta_end = std::atan2(dot(ce, second), dot(ce, first));
+    double theta_start = std::atan2(dot(cs, second), dot(cs, first)),
+           theta_end = std::atan2(dot(ce, second), dot(ce, first));
     double r_start = std::hypot(dot(cs, first), dot(cs, second)), r_end = std::hypot(dot(ce, first), dot(ce, second));
     if (rotation < 0 && theta_end + 1e-12 >= theta_start) theta_end -= 2 * M_PI;
     if (rotation >= 0 && theta_end - 1e-12 <= theta_start) theta_end += 2 * M_PI;
@@ -94,10 +95,12 @@ void TaskCanon::arc(int line, double first_end, double second_end, double first_
     double r_eff = std::sqrt(dr * dr + r_min * r_min);
     auto plane_limit = [&](const std::array<double, 9> &limit) {
         double m = std::min(axis_limit(limit, i1), axis_limit(limit, i2));
-        if (rotation_ != 0 && plane_ != CANON_PLANE_XY && (stat_->motion.traj.axis_mask & (1 << i3))) m = std::min(m, axis_limit(limit, i3));
+        if (rotation_ != 0 && plane_ != CANON_PLANE_XY && (stat_->motion.traj.axis_mask & (1 << i3)))
+            m = std::min(m, axis_limit(limit, i3));
         return m;
     };
-    double v_axes = plane_limit(limits_.velocity), a_axes = plane_limit(limits_.acceleration), j_axes = plane_limit(limits_.jerk);
+    double v_axes = plane_limit(limits_.velocity), a_axes = plane_limit(limits_.acceleration),
+           j_axes = plane_limit(limits_.jerk);
     double v_planar = std::min(std::sqrt(a_axes * std::sqrt(3.0) / 2 * r_eff), v_axes);
     double spiral_length = std::hypot(r_min * angle, spiral);
     double axis_length = dot(ce, normal) - dot(cs, normal);
@@ -208,7 +211,8 @@ struct Weighted { double x, y, w; };
 // A rational B-spline of order k over any knot vector (points.size() + k knots).
 class Spline {
 public:
-    Spline(std::vector<Weighted> points, std::vector<double> knots, unsigned k) : p_(std::move(points)), u_(std::move(knots)), k_(k) {}
+    Spline(std::vector<Weighted> points, std::vector<double> knots, unsigned k)
+        : p_(std::move(points)), u_(std::move(knots)), k_(k) {}
     double low() const { return u_[k_ - 1]; }
     double high() const { return u_[p_.size()]; }
 
@@ -225,7 +229,8 @@ public:
             for (size_t j = k_ - 1; j >= r; j--) {
                 size_t i = span + 1 - k_ + j;
                 double width = u_[i + k_ - r] - u_[i], f = width > 0 ? (u - u_[i]) / width : 0;
-                d[j] = {(1 - f) * d[j - 1].x + f * d[j].x, (1 - f) * d[j - 1].y + f * d[j].y, (1 - f) * d[j - 1].w + f * d[j].w};
+                d[j] = {(1 - f) * d[j - 1].x + f * d[j].x, (1 - f) * d[j - 1].y + f * d[j].y,
+                        (1 - f) * d[j - 1].w + f * d[j].w};
             }
         const Weighted &e = d[k_ - 1];
         return {e.x / e.w, e.y / e.w, e.w};
@@ -268,9 +273,11 @@ public:
         for (double t = step; t < s - 1e-9 && step > 0; t += step) {
             while (j + 2 < ss.size() && ss[j + 1] < t) j++;
             // Cubic Hermite of u over s, with du/ds = 1 / speed at both ends.
-            double h = ss[j + 1] - ss[j], f = (t - ss[j]) / h, m0 = 1 / std::max(speed(us[j]), 1e-12), m1 = 1 / std::max(speed(us[j + 1]), 1e-12);
+            double h = ss[j + 1] - ss[j], f = (t - ss[j]) / h, m0 = 1 / std::max(speed(us[j]), 1e-12),
+                   m1 = 1 / std::max(speed(us[j + 1]), 1e-12);
             double f2 = f * f, f3 = f2 * f;
-            out.push_back((2 * f3 - 3 * f2 + 1) * us[j] + (f3 - 2 * f2 + f) * h * m0 + (3 * f2 - 2 * f3) * us[j + 1] + (f3 - f2) * h * m1);
+            out.push_back((2 * f3 - 3 * f2 + 1) * us[j] + (f3 - 2 * f2 + f) * h * m0 + (3 * f2 - 2 * f3) * us[j + 1] +
+                          (f3 - f2) * h * m1);
         }
         out.push_back(high());
         return out;
@@ -287,7 +294,8 @@ void TaskCanon::NURBS_G5_FEED(int line, const std::vector<NURBS_CONTROL_POINT> &
     if (points.size() < order || order < 2) return;
     size_t n = points.size() - 1, k = order;
     std::vector<double> knots;
-    for (size_t i = 0; i <= n + k; i++) knots.push_back(i < k ? 0 : i <= n ? static_cast<double>(i - k + 1) : static_cast<double>(n - k + 2));
+    for (size_t i = 0; i <= n + k; i++)
+        knots.push_back(i < k ? 0 : i <= n ? static_cast<double>(i - k + 1) : static_cast<double>(n - k + 2));
     std::vector<Weighted> p;
     for (const NURBS_CONTROL_POINT &q : points) p.push_back({q.x, q.y, q.w});
     Spline curve(p, knots, order);
@@ -305,8 +313,8 @@ void TaskCanon::NURBS_G5_FEED(int line, const std::vector<NURBS_CONTROL_POINT> &
     }
 }
 
-void TaskCanon::NURBS_G6_FEED(int line, const std::vector<NURBS_G6_CONTROL_POINT> &points, unsigned order, double feedrate, int q_option,
-                              CANON_PLANE) {
+void TaskCanon::NURBS_G6_FEED(int line, const std::vector<NURBS_G6_CONTROL_POINT> &points, unsigned order,
+                              double feedrate, int q_option, CANON_PLANE) {
     if (points.size() < 2 * order || order < 2) return;
     size_t count = points.size() - order; // the last `order` entries only carry knots
     std::vector<Weighted> p;
@@ -321,7 +329,9 @@ void TaskCanon::NURBS_G6_FEED(int line, const std::vector<NURBS_G6_CONTROL_POINT
     std::vector<double> us;
     if (option == 1) {
         size_t div = (points.size() - order) * 15;
-        for (size_t i = 1; i <= div; i++) us.push_back(curve.low() + (curve.high() - curve.low()) * static_cast<double>(i) / static_cast<double>(div));
+        for (size_t i = 1; i <= div; i++)
+            us.push_back(curve.low() +
+                         (curve.high() - curve.low()) * static_cast<double>(i) / static_cast<double>(div));
     } else {
         us = curve.by_length(step, &length);
     }

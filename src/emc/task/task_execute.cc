@@ -17,8 +17,9 @@ struct Conditions { int before, after; };
 
 // What an order of the list waits for before it is given, and what its giver waits for after.
 const std::unordered_map<NMLTYPE, Conditions> &conditions() {
-    constexpr int ALL = EMC_TASK_EXEC_WAITING_FOR_MOTION_AND_IO, IO = EMC_TASK_EXEC_WAITING_FOR_IO, MOTION = EMC_TASK_EXEC_WAITING_FOR_MOTION,
-                  DONE = EMC_TASK_EXEC_DONE, DELAY = EMC_TASK_EXEC_WAITING_FOR_DELAY;
+    constexpr int ALL = EMC_TASK_EXEC_WAITING_FOR_MOTION_AND_IO, IO = EMC_TASK_EXEC_WAITING_FOR_IO,
+                  MOTION = EMC_TASK_EXEC_WAITING_FOR_MOTION, DONE = EMC_TASK_EXEC_DONE,
+                  DELAY = EMC_TASK_EXEC_WAITING_FOR_DELAY;
     static const std::unordered_map<NMLTYPE, Conditions> table = {
         {EMC_OPERATOR_ERROR_TYPE, {ALL, DONE}},
         {EMC_OPERATOR_TEXT_TYPE, {ALL, DONE}},
@@ -156,7 +157,8 @@ void Task::take_next() {
 }
 
 void Task::issue_pending() {
-    if (debug_ & EMC_DEBUG_TASK_ISSUE) rcs_print("Issuing %s -- \t (line %d)\n", emc_symbol_lookup(pending_.message.type()), pending_.line);
+    if (debug_ & EMC_DEBUG_TASK_ISSUE)
+        rcs_print("Issuing %s -- \t (line %d)\n", emc_symbol_lookup(pending_.message.type()), pending_.line);
     AnyMessage m = std::move(pending_.message);
     pending_ = {};
     int after = postcondition(*m);
@@ -287,17 +289,20 @@ int Task::issue(const NMLmsg &m) {
     case EMC_TRAJ_CLEAR_PROBE_TRIPPED_FLAG_TYPE:
         stat_.motion.traj.probe_tripped = false;
         return motion_.send(EMCMOT_CLEAR_PROBE_FLAGS);
-    case EMC_TRAJ_SET_VELOCITY_TYPE: return motion_.set_velocity(as<EMC_TRAJ_SET_VELOCITY>(m).velocity, as<EMC_TRAJ_SET_VELOCITY>(m).ini_maxvel);
+    case EMC_TRAJ_SET_VELOCITY_TYPE:
+        return motion_.set_velocity(as<EMC_TRAJ_SET_VELOCITY>(m).velocity, as<EMC_TRAJ_SET_VELOCITY>(m).ini_maxvel);
     case EMC_TRAJ_SET_ACCELERATION_TYPE: return motion_.set_acceleration(as<EMC_TRAJ_SET_ACCELERATION>(m).acceleration);
     case EMC_TRAJ_SET_TERM_COND_TYPE:
         {
             const EMC_TRAJ_SET_TERM_COND &c = as<EMC_TRAJ_SET_TERM_COND>(m);
             if (c.planner_type > 0 && settings_.smooth_planner == 0) {
-                operator_error("G64 R>0: no smooth planner available on this machine - set [TRAJ]MAX_LINEAR_JERK / [TRAJ]SMOOTH_PLANNER");
+                operator_error("G64 R>0: no smooth planner available on this machine - set [TRAJ]MAX_LINEAR_JERK / "
+                               "[TRAJ]SMOOTH_PLANNER");
                 return -1;
             }
             int r = motion_.set_term_cond(c.cond, c.tolerance);
-            if (r == 0 && c.planner_type >= 0) r = motion_.set_planner_type(c.planner_type > 0 ? settings_.smooth_planner : 0);
+            if (r == 0 && c.planner_type >= 0)
+                r = motion_.set_planner_type(c.planner_type > 0 ? settings_.smooth_planner : 0);
             if (r == 0 && c.scurve_peak_scale >= 0) r = motion_.set_scurve_peak_scale(c.scurve_peak_scale);
             return r;
         }
@@ -318,7 +323,8 @@ int Task::issue(const NMLmsg &m) {
     case EMC_TRAJ_SET_FO_ENABLE_TYPE: return motion_.enable_flag(EMCMOT_FS_ENABLE, as<EMC_TRAJ_SET_FO_ENABLE>(m).mode);
     case EMC_TRAJ_SET_FH_ENABLE_TYPE: return motion_.enable_flag(EMCMOT_FH_ENABLE, as<EMC_TRAJ_SET_FH_ENABLE>(m).mode);
     case EMC_TRAJ_SET_SO_ENABLE_TYPE:
-        return motion_.enable_flag(EMCMOT_SS_ENABLE, as<EMC_TRAJ_SET_SO_ENABLE>(m).mode, as<EMC_TRAJ_SET_SO_ENABLE>(m).spindle);
+        return motion_.enable_flag(EMCMOT_SS_ENABLE, as<EMC_TRAJ_SET_SO_ENABLE>(m).mode,
+                                   as<EMC_TRAJ_SET_SO_ENABLE>(m).spindle);
     case EMC_MOTION_ADAPTIVE_TYPE: return motion_.enable_flag(EMCMOT_AF_ENABLE, as<EMC_MOTION_ADAPTIVE>(m).status);
     case EMC_TRAJ_DELAY_TYPE:
         delay_until_ = kerf_clock_now_ns() + static_cast<int64_t>(as<EMC_TRAJ_DELAY>(m).delay * 1e9);
@@ -351,36 +357,40 @@ int Task::issue(const NMLmsg &m) {
             const EMC_SPINDLE_SPEED &s = as<EMC_SPINDLE_SPEED>(m);
             return motion_.spindle_speed(s.spindle, s.speed, s.factor, s.xoffset);
         }
-    case EMC_SPINDLE_OFF_TYPE: return motion_.spindle_off(as<EMC_SPINDLE_OFF>(m).spindle, as<EMC_SPINDLE_OFF>(m).wait_for_spindle_at_speed);
-    case EMC_SPINDLE_BRAKE_RELEASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_BRAKE_RELEASE, as<EMC_SPINDLE_BRAKE_RELEASE>(m).spindle);
-    case EMC_SPINDLE_BRAKE_ENGAGE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_BRAKE_ENGAGE, as<EMC_SPINDLE_BRAKE_ENGAGE>(m).spindle);
-    case EMC_SPINDLE_ORIENT_TYPE:
-        return motion_.spindle_orient(as<EMC_SPINDLE_ORIENT>(m).spindle, as<EMC_SPINDLE_ORIENT>(m).orientation, as<EMC_SPINDLE_ORIENT>(m).mode);
-    case EMC_SPINDLE_WAIT_ORIENT_COMPLETE_TYPE:
-        orient_until_ = kerf_clock_now_ns() + static_cast<int64_t>(as<EMC_SPINDLE_WAIT_ORIENT_COMPLETE>(m).timeout * 1e9);
-        return 0;
+        case EMC_SPINDLE_OFF_TYPE:
+            return motion_.spindle_off(as<EMC_SPINDLE_OFF>(m).spindle,
+                                       as<EMC_SPINDLE_OFF>(m).wait_for_spindle_at_speed);
+        case EMC_SPINDLE_BRAKE_RELEASE_TYPE:
+            return motion_.spindle_command(EMCMOT_SPINDLE_BRAKE_RELEASE, as<EMC_SPINDLE_BRAKE_RELEASE>(m).spindle);
+        case EMC_SPINDLE_BRAKE_ENGAGE_TYPE:
+            return motion_.spindle_command(EMCMOT_SPINDLE_BRAKE_ENGAGE, as<EMC_SPINDLE_BRAKE_ENGAGE>(m).spindle);
+        case EMC_SPINDLE_ORIENT_TYPE:
+            return motion_.spindle_orient(as<EMC_SPINDLE_ORIENT>(m).spindle, as<EMC_SPINDLE_ORIENT>(m).orientation,
+                                          as<EMC_SPINDLE_ORIENT>(m).mode);
+        case EMC_SPINDLE_WAIT_ORIENT_COMPLETE_TYPE:
+            orient_until_ =
+                kerf_clock_now_ns() + static_cast<int64_t>(as<EMC_SPINDLE_WAIT_ORIENT_COMPLETE>(m).timeout * 1e9);
+            return 0;
 
-    case EMC_COOLANT_MIST_ON_TYPE: return io_.mist(true);
-    case EMC_COOLANT_MIST_OFF_TYPE: return io_.mist(false);
-    case EMC_COOLANT_FLOOD_ON_TYPE: return io_.flood(true);
-    case EMC_COOLANT_FLOOD_OFF_TYPE: return io_.flood(false);
-    case EMC_TOOL_PREPARE_TYPE: return io_.prepare(as<EMC_TOOL_PREPARE>(m).tool);
-    case EMC_TOOL_LOAD_TYPE: return io_.load();
-    case EMC_TOOL_UNLOAD_TYPE: return io_.unload();
-    case EMC_TOOL_LOAD_TOOL_TABLE_TYPE: return io_.load_table(as<EMC_TOOL_LOAD_TOOL_TABLE>(m).file);
-    case EMC_TOOL_SET_OFFSET_TYPE: return io_.set_offset(as<EMC_TOOL_SET_OFFSET>(m));
-    case EMC_TOOL_SET_NUMBER_TYPE: return io_.set_number(as<EMC_TOOL_SET_NUMBER>(m).tool);
+        case EMC_COOLANT_MIST_ON_TYPE: return io_.mist(true);
+        case EMC_COOLANT_MIST_OFF_TYPE: return io_.mist(false);
+        case EMC_COOLANT_FLOOD_ON_TYPE: return io_.flood(true);
+        case EMC_COOLANT_FLOOD_OFF_TYPE: return io_.flood(false);
+        case EMC_TOOL_PREPARE_TYPE: return io_.prepare(as<EMC_TOOL_PREPARE>(m).tool);
+        case EMC_TOOL_LOAD_TYPE: return io_.load();
+        case EMC_TOOL_UNLOAD_TYPE: return io_.unload();
+        case EMC_TOOL_LOAD_TOOL_TABLE_TYPE: return io_.load_table(as<EMC_TOOL_LOAD_TOOL_TABLE>(m).file);
+        case EMC_TOOL_SET_OFFSET_TYPE: return io_.set_offset(as<EMC_TOOL_SET_OFFSET>(m));
+        case EMC_TOOL_SET_NUMBER_TYPE: return io_.set_number(as<EMC_TOOL_SET_NUMBER>(m).tool);
 
-    case OffsetsNow::NUMBER: executed_offsets_ = as<OffsetsNow>(m); return 0;
-    case EMC_TASK_PLAN_PAUSE_TYPE: return plan_pause();
-    case EMC_TASK_PLAN_OPTIONAL_STOP_TYPE: return canon_->optional_stop ? plan_pause() : 0;
-    case EMC_TASK_PLAN_END_TYPE: return 0;
-    case EMC_TASK_PLAN_INIT_TYPE: return plan_init();
-    case EMC_TASK_PLAN_RUN_TYPE: return plan_run(as<EMC_TASK_PLAN_RUN>(m).line);
-    case EMC_TASK_PLAN_SYNCH_TYPE: synch(); return 0;
-    case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
-    default:
-        rcs_print_error("task has no order %s (%d)\n", emc_symbol_lookup(m._type), m._type);
-        return -1;
+        case OffsetsNow::NUMBER: executed_offsets_ = as<OffsetsNow>(m); return 0;
+        case EMC_TASK_PLAN_PAUSE_TYPE: return plan_pause();
+        case EMC_TASK_PLAN_OPTIONAL_STOP_TYPE: return canon_->optional_stop ? plan_pause() : 0;
+        case EMC_TASK_PLAN_END_TYPE: return 0;
+        case EMC_TASK_PLAN_INIT_TYPE: return plan_init();
+        case EMC_TASK_PLAN_RUN_TYPE: return plan_run(as<EMC_TASK_PLAN_RUN>(m).line);
+        case EMC_TASK_PLAN_SYNCH_TYPE: synch(); return 0;
+        case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
+        default: rcs_print_error("task has no order %s (%d)\n", emc_symbol_lookup(m._type), m._type); return -1;
     }
 }

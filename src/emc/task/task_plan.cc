@@ -70,13 +70,22 @@ int Task::refuse(const NMLmsg &m, Situation s) {
     char text[LINELEN];
     switch (s) {
     case Situation::off:
-        snprintf(text, sizeof text, "command (%s) cannot be executed until the machine is out of E-stop and turned on", name);
+        snprintf(text, sizeof text, "command (%s) cannot be executed until the machine is out of E-stop and turned on",
+                 name);
         break;
     case Situation::manual: snprintf(text, sizeof text, "can't do that (%s:%d) in manual mode", name, m._type); break;
-    case Situation::auto_idle: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter idle", name); break;
-    case Situation::auto_reading: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter reading", name); break;
-    case Situation::auto_paused: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter paused", name); break;
-    case Situation::auto_waiting: snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter waiting", name); break;
+    case Situation::auto_idle:
+        snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter idle", name);
+        break;
+    case Situation::auto_reading:
+        snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter reading", name);
+        break;
+    case Situation::auto_paused:
+        snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter paused", name);
+        break;
+    case Situation::auto_waiting:
+        snprintf(text, sizeof text, "can't do that (%s) in auto mode with the interpreter waiting", name);
+        break;
     case Situation::mdi: snprintf(text, sizeof text, "can't do that (%s:%d) in MDI mode", name, m._type); break;
     }
     operator_error(text);
@@ -84,7 +93,9 @@ int Task::refuse(const NMLmsg &m, Situation s) {
 }
 
 int Task::refuse_stranger(const NMLmsg &m) {
-    operator_error((control_.name() + " has control of the machine: " + emc_symbol_lookup(m._type) + " of another program was refused. Abort ends its control").c_str());
+    operator_error((control_.name() + " has control of the machine: " + emc_symbol_lookup(m._type) +
+                    " of another program was refused. Abort ends its control")
+                       .c_str());
     return -1;
 }
 
@@ -94,7 +105,8 @@ int Task::take_control(const char *name) {
         control_error_ = false;
         return 0;
     }
-    operator_error(control_.taken() ? (control_.name() + " has control of the machine").c_str() : "Nobody knows which program wants control of the machine");
+    operator_error(control_.taken() ? (control_.name() + " has control of the machine").c_str()
+                                    : "Nobody knows which program wants control of the machine");
     return -1;
 }
 
@@ -106,7 +118,8 @@ void Task::wait_and_synch() {
 // ---- commands that only the operator gives; the rest is shared with the list ----
 
 int Task::do_command(const NMLmsg &m) {
-    if (debug_ & EMC_DEBUG_TASK_ISSUE) rcs_print("Issuing %s -- \t (%d)\n", emc_symbol_lookup(m._type), command_serial_);
+    if (debug_ & EMC_DEBUG_TASK_ISSUE)
+        rcs_print("Issuing %s -- \t (%d)\n", emc_symbol_lookup(m._type), command_serial_);
     switch (m._type) {
     case EMC_TASK_SET_MODE_TYPE: return set_mode(as<EMC_TASK_SET_MODE>(m).mode);
     case EMC_TASK_SET_STATE_TYPE: return set_state(as<EMC_TASK_SET_STATE>(m).state);
@@ -122,7 +135,8 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_TASK_PLAN_OPEN_TYPE: return plan_open(as<EMC_TASK_PLAN_OPEN>(m));
     case EMC_TASK_PLAN_CLOSE_TYPE: return plan_close();
     case EMC_TASK_PLAN_RUN_TYPE:
-        if (const int line = as<EMC_TASK_PLAN_RUN>(m).line; run_from_line_restores_ && line > 0) return plan_restore(line);
+        if (const int line = as<EMC_TASK_PLAN_RUN>(m).line; run_from_line_restores_ && line > 0)
+            return plan_restore(line);
         else return plan_run(line);
     case EMC_TASK_PLAN_RESTORE_TYPE: return plan_restore(as<EMC_TASK_PLAN_RESTORE>(m).line);
     case EMC_TASK_PLAN_RESTORE_CONFIRM_TYPE: return plan_restore_confirm(as<EMC_TASK_PLAN_RESTORE_CONFIRM>(m).line);
@@ -136,21 +150,30 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_TASK_PLAN_EXECUTE_TYPE: return plan_execute(as<EMC_TASK_PLAN_EXECUTE>(m).command);
     case EMC_TASK_PLAN_REVERSE_TYPE: return motion_.send(EMCMOT_REVERSE);
     case EMC_TASK_PLAN_FORWARD_TYPE: return motion_.send(EMCMOT_FORWARD);
-    case EMC_TASK_PLAN_SET_OPTIONAL_STOP_TYPE: canon_->optional_stop = as<EMC_TASK_PLAN_SET_OPTIONAL_STOP>(m).state; return 0;
-    case EMC_TASK_PLAN_SET_BLOCK_DELETE_TYPE: canon_->block_delete = as<EMC_TASK_PLAN_SET_BLOCK_DELETE>(m).state; return 0;
+    case EMC_TASK_PLAN_SET_OPTIONAL_STOP_TYPE:
+        canon_->optional_stop = as<EMC_TASK_PLAN_SET_OPTIONAL_STOP>(m).state;
+        return 0;
+    case EMC_TASK_PLAN_SET_BLOCK_DELETE_TYPE:
+        canon_->block_delete = as<EMC_TASK_PLAN_SET_BLOCK_DELETE>(m).state;
+        return 0;
     case EMC_SET_DEBUG_TYPE:
         debug_ = as<EMC_SET_DEBUG>(m).debug;
         stat_.debug = static_cast<int>(debug_);
         return motion_.set_debug(debug_);
-    case EMC_JOINT_SET_BACKLASH_TYPE: return motion_.set_joint_backlash(as<EMC_JOINT_SET_BACKLASH>(m).joint, as<EMC_JOINT_SET_BACKLASH>(m).backlash);
+    case EMC_JOINT_SET_BACKLASH_TYPE:
+        return motion_.set_joint_backlash(as<EMC_JOINT_SET_BACKLASH>(m).joint, as<EMC_JOINT_SET_BACKLASH>(m).backlash);
     case EMC_JOINT_SET_HOMING_PARAMS_TYPE: return motion_.set_homing_params(as<EMC_JOINT_SET_HOMING_PARAMS>(m));
-    case EMC_JOINT_SET_FERROR_TYPE: return motion_.set_joint_ferror(as<EMC_JOINT_SET_FERROR>(m).joint, as<EMC_JOINT_SET_FERROR>(m).ferror);
+    case EMC_JOINT_SET_FERROR_TYPE:
+        return motion_.set_joint_ferror(as<EMC_JOINT_SET_FERROR>(m).joint, as<EMC_JOINT_SET_FERROR>(m).ferror);
     case EMC_JOINT_SET_MIN_FERROR_TYPE:
-        return motion_.set_joint_min_ferror(as<EMC_JOINT_SET_MIN_FERROR>(m).joint, as<EMC_JOINT_SET_MIN_FERROR>(m).ferror);
+        return motion_.set_joint_min_ferror(as<EMC_JOINT_SET_MIN_FERROR>(m).joint,
+                                            as<EMC_JOINT_SET_MIN_FERROR>(m).ferror);
     case EMC_JOINT_SET_MIN_POSITION_LIMIT_TYPE:
-        return motion_.set_joint_min_limit(as<EMC_JOINT_SET_MIN_POSITION_LIMIT>(m).joint, as<EMC_JOINT_SET_MIN_POSITION_LIMIT>(m).limit);
+        return motion_.set_joint_min_limit(as<EMC_JOINT_SET_MIN_POSITION_LIMIT>(m).joint,
+                                           as<EMC_JOINT_SET_MIN_POSITION_LIMIT>(m).limit);
     case EMC_JOINT_SET_MAX_POSITION_LIMIT_TYPE:
-        return motion_.set_joint_max_limit(as<EMC_JOINT_SET_MAX_POSITION_LIMIT>(m).joint, as<EMC_JOINT_SET_MAX_POSITION_LIMIT>(m).limit);
+        return motion_.set_joint_max_limit(as<EMC_JOINT_SET_MAX_POSITION_LIMIT>(m).joint,
+                                           as<EMC_JOINT_SET_MAX_POSITION_LIMIT>(m).limit);
     case EMC_JOINT_HALT_TYPE: return motion_.jog_stop(as<EMC_JOINT_HALT>(m).joint, 1);
     case EMC_JOINT_HOME_TYPE: return motion_.home(as<EMC_JOINT_HOME>(m).joint);
     case EMC_JOINT_UNHOME_TYPE: return motion_.unhome(as<EMC_JOINT_UNHOME>(m).joint);
@@ -191,14 +214,16 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_TRAJ_SET_RAPID_SCALE_TYPE: return motion_.scale(EMCMOT_RAPID_SCALE, as<EMC_TRAJ_SET_RAPID_SCALE>(m).scale);
     case EMC_TRAJ_SET_MAX_VELOCITY_TYPE: return motion_.set_max_velocity(as<EMC_TRAJ_SET_MAX_VELOCITY>(m).velocity);
     case EMC_TRAJ_SET_SPINDLE_SCALE_TYPE:
-        return motion_.scale(EMCMOT_SPINDLE_SCALE, as<EMC_TRAJ_SET_SPINDLE_SCALE>(m).scale, as<EMC_TRAJ_SET_SPINDLE_SCALE>(m).spindle);
+        return motion_.scale(EMCMOT_SPINDLE_SCALE, as<EMC_TRAJ_SET_SPINDLE_SCALE>(m).scale,
+                             as<EMC_TRAJ_SET_SPINDLE_SCALE>(m).spindle);
     case EMC_TRAJ_PAUSE_TYPE: stat_.task.task_paused = 1; return motion_.send(EMCMOT_PAUSE);
     case EMC_TRAJ_RESUME_TYPE: stat_.task.task_paused = 0; return motion_.send(EMCMOT_RESUME);
     case EMC_TRAJ_ABORT_TYPE: return motion_.traj_abort();
     case EMC_SPINDLE_INCREASE_TYPE:
         if (hands_at_the_spindle()) return -1;
         return motion_.spindle_command(EMCMOT_SPINDLE_INCREASE, as<EMC_SPINDLE_INCREASE>(m).spindle);
-    case EMC_SPINDLE_DECREASE_TYPE: return motion_.spindle_command(EMCMOT_SPINDLE_DECREASE, as<EMC_SPINDLE_DECREASE>(m).spindle);
+    case EMC_SPINDLE_DECREASE_TYPE:
+        return motion_.spindle_command(EMCMOT_SPINDLE_DECREASE, as<EMC_SPINDLE_DECREASE>(m).spindle);
     case EMC_SPINDLE_CONSTANT_TYPE: return 0;
     case EMC_SPINDLE_ON_TYPE:
         if (hands_at_the_spindle()) return -1;
@@ -217,7 +242,8 @@ int Task::do_command(const NMLmsg &m) {
     case EMC_COOLANT_FLOOD_OFF_TYPE:
         {
             const int r = issue(m);
-            if (stat_.task.interpState == EMC_TASK_INTERP_IDLE) interp_->coolant_switched(stat_.io.coolant.mist, stat_.io.coolant.flood);
+            if (stat_.task.interpState == EMC_TASK_INTERP_IDLE)
+                interp_->coolant_switched(stat_.io.coolant.mist, stat_.io.coolant.flood);
             return r;
         }
     case EMC_NULL_TYPE: return 0;
@@ -325,7 +351,8 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
         if (upload_fd_ < 0) {
             plan_close();
             const char *tmp = getenv("TMPDIR");
-            std::string base = name.substr(name.find_last_of('/') == std::string::npos ? 0 : name.find_last_of('/') + 1);
+            std::string base =
+                name.substr(name.find_last_of('/') == std::string::npos ? 0 : name.find_last_of('/') + 1);
             upload_name_ = std::string(tmp && *tmp ? tmp : "/tmp") + "/" + base + ".XXXXXX";
             upload_fd_ = mkstemp(upload_name_.data());
             upload_done_ = 0;
@@ -396,13 +423,15 @@ int Task::plan_init() {
         if (!interp_->fault().file.empty()) rcs_print_error("%s\n", interp_->fault().report().c_str());
         return r;
     }
-    if (auto code = ini_.findString("RS274NGC_STARTUP_CODE", "RS274NGC"); code && !code->empty() && code->size() < LINELEN) {
+    if (auto code = ini_.findString("RS274NGC_STARTUP_CODE", "RS274NGC");
+        code && !code->empty() && code->size() < LINELEN) {
         do r = interp_->execute(r == INTERP_EXECUTE_FINISH ? nullptr : code->c_str());
         while (r == INTERP_EXECUTE_FINISH && interp_->call_level() > 0);
         if (r == INTERP_EXECUTE_FINISH) r = INTERP_OK;
         if (r > INTERP_MIN_ERROR) operator_error(interp_->error_text(r));
         interp_->set_mdi_slice(static_cast<int>(interp_max_len_));
-        if (r > INTERP_MIN_ERROR && !ini_.findStringV("INTERPRETER", "TASK", "").empty()) return 0; // it is of another language
+        if (r > INTERP_MIN_ERROR && !ini_.findStringV("INTERPRETER", "TASK", "").empty())
+            return 0; // it is of another language
         return r;
     }
     interp_->set_mdi_slice(static_cast<int>(interp_max_len_));
@@ -420,7 +449,8 @@ bool Task::may_run() {
         return false;
     }
     FileId now = identity(program_);
-    if (now.size != program_id_.size || now.seconds != program_id_.seconds || now.nanoseconds != program_id_.nanoseconds || now.inode != program_id_.inode) {
+    if (now.size != program_id_.size || now.seconds != program_id_.seconds ||
+        now.nanoseconds != program_id_.nanoseconds || now.inode != program_id_.inode) {
         operator_error((program_ + " was changed after it was opened: open it again to run what it says now").c_str());
         return false;
     }
@@ -510,7 +540,9 @@ void Task::forget_fault() {
 }
 
 void Task::failed_at(int line) {
-    if (stat_.error_line > 0 || line <= 0 || stat_.task.mode != EMC_TASK_MODE_AUTO || stat_.task.interpState == EMC_TASK_INTERP_IDLE) return;
+    if (stat_.error_line > 0 || line <= 0 || stat_.task.mode != EMC_TASK_MODE_AUTO ||
+        stat_.task.interpState == EMC_TASK_INTERP_IDLE)
+        return;
     stat_.error_line = line;
     copy_text(stat_.error_file, stat_.task.file);
 }
@@ -633,8 +665,11 @@ int Task::plan_execute(const char *text) {
     if (!*text) return 0;
     const bool waits = !mdi_queue_.empty() || wait_ || mdi_continue_;
     if (mdi_queue_max_ == 0 ? waits || t.interpState != EMC_TASK_INTERP_IDLE : mdi_queue_.size() >= mdi_queue_max_) {
-        operator_error(mdi_queue_max_ == 0 ? "An MDI line is still being executed: the next one was refused ([TASK]MDI_QUEUE = 0)"
-                                           : ("MDI lines waiting: " + std::to_string(mdi_queue_.size()) + ", as many as [TASK]MDI_QUEUE allows: the next one was refused").c_str());
+        operator_error(mdi_queue_max_ == 0
+                           ? "An MDI line is still being executed: the next one was refused ([TASK]MDI_QUEUE = 0)"
+                           : ("MDI lines waiting: " + std::to_string(mdi_queue_.size()) +
+                              ", as many as [TASK]MDI_QUEUE allows: the next one was refused")
+                                 .c_str());
         return -1;
     }
     if (!waits) return mdi_run(text);
@@ -645,7 +680,9 @@ int Task::plan_execute(const char *text) {
 // Takes a line out of those that wait; 0: all of them.
 int Task::mdi_cancel(int serial) {
     const size_t before = mdi_queue_.size();
-    mdi_queue_.erase(std::remove_if(mdi_queue_.begin(), mdi_queue_.end(), [&](const MdiLine &l) { return serial == 0 || l.serial == serial; }), mdi_queue_.end());
+    mdi_queue_.erase(std::remove_if(mdi_queue_.begin(), mdi_queue_.end(),
+                                    [&](const MdiLine &l) { return serial == 0 || l.serial == serial; }),
+                     mdi_queue_.end());
     if (serial == 0 || mdi_queue_.size() < before) return 0;
     operator_error("That MDI line does not wait any more");
     return -1;
@@ -718,7 +755,8 @@ void Task::mdi_cycle() {
         if (mdi_run(next.c_str()) != 0) command_failed();
         return;
     }
-    if (t.interpState != EMC_TASK_INTERP_IDLE && idle() && stat_.motion.traj.queue == 0 && stat_.io.status == RCS_DONE) {
+    if (t.interpState != EMC_TASK_INTERP_IDLE && idle() && stat_.motion.traj.queue == 0 &&
+        stat_.io.status == RCS_DONE) {
         t.interpState = EMC_TASK_INTERP_IDLE;
         t.command[0] = 0;
     }

@@ -41,14 +41,21 @@ std::string words(const EmcPose &p, int mask, bool all) {
 std::string or_none(const std::string &text) { return text.empty() ? " none" : text; }
 
 bool same_place(const EmcPose &a, const EmcPose &b) {
-    const double d[] = {a.tran.x - b.tran.x, a.tran.y - b.tran.y, a.tran.z - b.tran.z, a.a - b.a, a.b - b.b, a.c - b.c, a.u - b.u, a.v - b.v, a.w - b.w};
+    const double d[] = {a.tran.x - b.tran.x, a.tran.y - b.tran.y, a.tran.z - b.tran.z, a.a - b.a, a.b - b.b,
+                        a.c - b.c,           a.u - b.u,           a.v - b.v,           a.w - b.w};
     for (double x : d)
         if (std::fabs(x) > SAME_PLACE) return false;
     return true;
 }
 
 EmcPose less(const EmcPose &p, const EmcPose &q) {
-    return {{p.tran.x - q.tran.x, p.tran.y - q.tran.y, p.tran.z - q.tran.z}, p.a - q.a, p.b - q.b, p.c - q.c, p.u - q.u, p.v - q.v, p.w - q.w};
+    return {{p.tran.x - q.tran.x, p.tran.y - q.tran.y, p.tran.z - q.tran.z},
+            p.a - q.a,
+            p.b - q.b,
+            p.c - q.c,
+            p.u - q.u,
+            p.v - q.v,
+            p.w - q.w};
 }
 
 } // namespace
@@ -105,7 +112,9 @@ void Task::look_ahead() {
     stat_.restore_line = dry_->line();
     const std::string text = restore_text();
     copy_text(stat_.restore_text, text.c_str());
-    operator_display(("Line " + std::to_string(dry_->line()) + " waits for your confirmation. " + text).substr(0, LINELEN - 1).c_str());
+    operator_display(("Line " + std::to_string(dry_->line()) + " waits for your confirmation. " + text)
+                         .substr(0, LINELEN - 1)
+                         .c_str());
 }
 
 std::string Task::restore_text() const {
@@ -114,29 +123,36 @@ std::string Task::restore_text() const {
     std::string text = "Start at line " + std::to_string(dry_->line()) + " of " + program_ + ":\n";
     auto add = [&](const std::string &line) { text += "- " + line + "\n"; };
     if (dry_->tool() != stat_.io.tool.toolInSpindle)
-        add("tool T" + std::to_string(dry_->tool()) + " is changed in for T" + std::to_string(stat_.io.tool.toolInSpindle));
+        add("tool T" + std::to_string(dry_->tool()) + " is changed in for T" +
+            std::to_string(stat_.io.tool.toolInSpindle));
     else add("tool T" + std::to_string(dry_->tool()) + " stays");
-    if (dry_->prepared() >= 0 && dry_->stat().io.tool.pocketPrepped != looked_prepared_) add("tool T" + std::to_string(dry_->prepared()) + " is prepared");
-    for (const AnyMessage &m : dry_->tool_table()) add("the tool table's T" + std::to_string(as<EMC_TOOL_SET_OFFSET>(*m).toolno) + " is set");
+    if (dry_->prepared() >= 0 && dry_->stat().io.tool.pocketPrepped != looked_prepared_)
+        add("tool T" + std::to_string(dry_->prepared()) + " is prepared");
+    for (const AnyMessage &m : dry_->tool_table())
+        add("the tool table's T" + std::to_string(as<EMC_TOOL_SET_OFFSET>(*m).toolno) + " is set");
     const EmcPose &end = dry_->position(), &here = stat_.motion.traj.position;
     if (same_place(end, here)) add("the machine is in place");
     else {
         const double z = std::max(here.tran.z, dry_->highest_z());
         EmcPose across = end;
         across.tran.z = z;
-        add("moves, machine coordinates: up to Z" + number(z) + ", across to" + words(across, mask & ~4, true) + ", down to Z" + number(end.tran.z) +
+        add("moves, machine coordinates: up to Z" + number(z) + ", across to" + words(across, mask & ~4, true) +
+            ", down to Z" + number(end.tran.z) +
             (dry_->feed() > 0 ? " at feed " + number(dry_->feed() * 60) : " at rapid"));
     }
     for (int i = 0; i < stat_.motion.traj.spindles; i++) {
         const double speed = then.motion.spindle[i].speed;
-        add("spindle " + std::to_string(i) + (speed == 0 ? " off" : (speed > 0 ? " clockwise " : " counterclockwise ") + number(std::fabs(speed)) + " rpm"));
+        add("spindle " + std::to_string(i) +
+            (speed == 0 ? " off"
+                        : (speed > 0 ? " clockwise " : " counterclockwise ") + number(std::fabs(speed)) + " rpm"));
     }
     add(std::string("coolant") + (then.io.coolant.mist ? " mist" : "") + (then.io.coolant.flood ? " flood" : "") +
         (then.io.coolant.mist || then.io.coolant.flood ? " on" : " off"));
     static const char *systems[] = {"G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
     const int index = then.task.g5x_index;
-    add(std::string("offsets: ") + systems[index >= 1 && index <= 9 ? index : 0] + or_none(words(then.task.g5x_offset, mask, false)) + ", rotation " +
-        number(then.task.rotation_xy) + ", G92" + or_none(words(then.task.g92_offset, mask, false)) + ", tool length" +
+    add(std::string("offsets: ") + systems[index >= 1 && index <= 9 ? index : 0] +
+        or_none(words(then.task.g5x_offset, mask, false)) + ", rotation " + number(then.task.rotation_xy) + ", G92" +
+        or_none(words(then.task.g92_offset, mask, false)) + ", tool length" +
         or_none(words(then.task.toolOffset, mask, false)));
     int g[ACTIVE_G_CODES];
     double settings[ACTIVE_SETTINGS];
@@ -159,7 +175,8 @@ int Task::plan_restore_confirm(int line) {
         forget_restore();
         return -1;
     }
-    if (std::memcmp(looked_offsets_.values, executed_offsets_.values, sizeof looked_offsets_.values) != 0 || looked_tool_ != stat_.io.tool.toolInSpindle) {
+    if (std::memcmp(looked_offsets_.values, executed_offsets_.values, sizeof looked_offsets_.values) != 0 ||
+        looked_tool_ != stat_.io.tool.toolInSpindle) {
         operator_error("Offsets or tool changed since the start was shown: have it shown again");
         forget_restore();
         return -1;
@@ -181,9 +198,11 @@ int Task::plan_restore_confirm(int line) {
 // After the tool change: the interpreter that looked ahead takes over, the machine goes to its place.
 void Task::restore_step() {
     if (wait_ || mdi_goes_on()) return;
-    if (!idle() || stat_.motion.traj.queue > 0 || stat_.motion.status != RCS_DONE || stat_.io.status != RCS_DONE) return;
+    if (!idle() || stat_.motion.traj.queue > 0 || stat_.motion.status != RCS_DONE || stat_.io.status != RCS_DONE)
+        return;
     if (stat_.io.tool.toolInSpindle != dry_->tool()) {
-        operator_error(("The tool change did not bring T" + std::to_string(dry_->tool()) + ": the start is given up").c_str());
+        operator_error(
+            ("The tool change did not bring T" + std::to_string(dry_->tool()) + ": the start is given up").c_str());
         command_failed();
         forget_restore();
         stat_.task.interpState = EMC_TASK_INTERP_IDLE;

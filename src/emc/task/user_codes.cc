@@ -127,5 +127,7 @@ void Child::interrupt() {
 }
 
 void Child::collect() {
-    left_.erase(std::remove_if(left_.begin(), left_.end(), [](pid_t pid) { return waitpid(pid, nullptr, WNOHANG) != 0; }), left_.end());
+    left_.erase(
+        std::remove_if(left_.begin(), left_.end(), [](pid_t pid) { return waitpid(pid, nullptr, WNOHANG) != 0; }),
+        left_.end());
 }

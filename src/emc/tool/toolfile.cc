@@ -56,14 +56,15 @@ Kind read_line(const std::string &line, int *idx, CANON_TOOL_TABLE *result)
         fflush(stdout);
         const bool letter = strchr("TPQ", word.letter) || field_of(t, word.letter);
         complain(word.column, "the line is skipped: '" + word.text + "' " +
-                                  (letter ? "has no number behind its letter" : "is no word of a tool table (letters T P D X Y Z A B C U V W I J Q)"));
+                                  (letter ? "has no number behind its letter"
+                                          : "is no word of a tool table (letters T P D X Y Z A B C U V W I J Q)"));
         return REJECTED;
     }
     std::string comment = parts.comment;
     if (comment.size() >= CANON_TOOL_COMMENT_SIZE) {
         comment.resize(CANON_TOOL_COMMENT_SIZE - 1);
-        fprintf(stderr, "tooldata_read_entry():comment for toolno %d truncated to %d chars:\n   <%s>\n", t.toolno, CANON_TOOL_COMMENT_SIZE - 1,
-                comment.c_str());
+        fprintf(stderr, "tooldata_read_entry():comment for toolno %d truncated to %d chars:\n   <%s>\n", t.toolno,
+                CANON_TOOL_COMMENT_SIZE - 1, comment.c_str());
     }
     memcpy(t.comment, comment.c_str(), comment.size() + 1);
     if (!have_t) complain(1, "no tool number (T)");
@@ -75,14 +76,16 @@ Kind read_line(const std::string &line, int *idx, CANON_TOOL_TABLE *result)
             complain(0, "the line is skipped: pockets are 0 to " + std::to_string(CANON_POCKETS_MAX - 1));
             return REJECTED;
         }
-        if (!have_p) complain(0, "no pocket number (P); tool " + std::to_string(t.toolno) + " is taken to be in the spindle");
+        if (!have_p)
+            complain(0, "no pocket number (P); tool " + std::to_string(t.toolno) + " is taken to be in the spindle");
         CANON_TOOL_TABLE old;
         if (tooldata_get(&old, *idx) == IDX_OK && old.toolno != -1) {
             fprintf(stderr,
                     "WARNING: Attempt to assign multiple toolno.s to pocket %d\n"
                     "         Discarding: toolno=%d\n         Using:      toolno=%d\n",
                     *idx, old.toolno, t.toolno);
-            complain(0, "pocket " + std::to_string(*idx) + " has tool " + std::to_string(old.toolno) + " already, which is left out");
+            complain(0, "pocket " + std::to_string(*idx) + " has tool " + std::to_string(old.toolno) +
+                            " already, which is left out");
         }
     } else {
         *idx = first_idx;
@@ -135,8 +138,8 @@ std::string value_word(char letter, double v, bool exact)
 }
 
 // The line of a tool. before: the record of its old line, nullptr when there is none.
-std::string tool_line(int idx, bool ignore_zero, CANON_TOOL_TABLE t, CANON_TOOL_TABLE *before, const std::string &comment)
-{
+std::string tool_line(int idx, bool ignore_zero, CANON_TOOL_TABLE t, CANON_TOOL_TABLE *before,
+                      const std::string &comment) {
     char head[64];
     snprintf(head, sizeof head, "T%-3d P%-3d", t.toolno, tool_mmap_is_random_toolchanger() ? idx : t.pocketno);
     std::string text = head;

@@ -59,8 +59,11 @@ bool lock()
     const unsigned long me = static_cast<unsigned long>(getpid());
     for (int tries = 0; tries < 10000; ++tries) {
         unsigned long owner = 0;
-        if (__atomic_compare_exchange_n(&store.map->mutex, &owner, me, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED)) return true;
-        if (gone(owner) && __atomic_compare_exchange_n(&store.map->mutex, &owner, me, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED)) return true;
+        if (__atomic_compare_exchange_n(&store.map->mutex, &owner, me, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED))
+            return true;
+        if (gone(owner) &&
+            __atomic_compare_exchange_n(&store.map->mutex, &owner, me, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED))
+            return true;
         const struct timespec pause = {0, 1000000}; // wall clock: another process holds the lock
         nanosleep(&pause, nullptr);
     }

@@ -81,7 +81,8 @@ Line split(const std::string &line)
     if (end != line.npos) {
         result.has_comment = true;
         result.comment = line.substr(end + 1);
-        while (!result.comment.empty() && (result.comment.back() == '\n' || result.comment.back() == '\r')) result.comment.pop_back();
+        while (!result.comment.empty() && (result.comment.back() == '\n' || result.comment.back() == '\r'))
+            result.comment.pop_back();
     } else {
         end = line.size();
     }
@@ -93,7 +94,8 @@ Line split(const std::string &line)
         size_t stop = line.find_first_of(" \t\r\n", i);
         if (stop == line.npos || stop > end) stop = end;
         const char letter = line[i];
-        result.words.push_back({letter >= 'a' && letter <= 'z' ? char(letter - 32) : letter, line.substr(i, stop - i), int(i) + 1});
+        result.words.push_back(
+            {letter >= 'a' && letter <= 'z' ? char(letter - 32) : letter, line.substr(i, stop - i), int(i) + 1});
         i = stop;
     }
     return result;
@@ -141,7 +143,8 @@ bool replace_file(const std::string &filename, const std::string &text, bool bac
     good = close(fd) == 0 && good;
     if (good && backup) {
         unlink(old.c_str());
-        if (link(place.c_str(), old.c_str()) != 0 && errno != ENOENT) fprintf(stderr, "can't keep the old file as %s: %s\n", old.c_str(), strerror(errno));
+        if (link(place.c_str(), old.c_str()) != 0 && errno != ENOENT)
+            fprintf(stderr, "can't keep the old file as %s: %s\n", old.c_str(), strerror(errno));
     }
     if (good && rename(fresh.c_str(), place.c_str()) != 0) {
         good = false;
@@ -153,7 +156,10 @@ bool replace_file(const std::string &filename, const std::string &text, bool bac
         return false;
     }
     const size_t slash = place.find_last_of('/');
-    const int dir = open(slash == place.npos ? "." : slash == 0 ? "/" : place.substr(0, slash).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int dir = open(slash == place.npos ? "."
+                         : slash == 0        ? "/"
+                                             : place.substr(0, slash).c_str(),
+                         O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (dir >= 0) {
         fsync(dir); // the name too is on the disk
         close(dir);

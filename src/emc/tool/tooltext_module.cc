@@ -44,5 +44,6 @@ PYBIND11_MODULE(kerf_tooltext, m)
     m.def("split", &split, py::arg("line"),
           "([(LETTER, text behind it, column from 1)], text behind the first semicolon or None)");
     m.def("replace_file", &replace_file, py::arg("filename"), py::arg("text"), py::arg("backup"),
-          "Writes, syncs and puts in place; keeps the old file as FILE.bak if backup. OSError: the old file is untouched.");
+          "Writes, syncs and puts in place; keeps the old file as FILE.bak if backup. OSError: the old file is "
+          "untouched.");
 }

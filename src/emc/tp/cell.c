@@ -101,7 +101,8 @@ static void chords(struct traj_line line[2], const double f[3], double cap)
     }
 }
 
-static void fill_row(struct traj_row *row, const double d1[3], const double d2[3], const double d3[3], double corner, double edge, double more)
+static void fill_row(struct traj_row *row, const double d1[3], const double d2[3],
+                     const double d3[3], double corner, double edge, double more)
 {
     range3(d1[0], d1[1], d1[2], more * fabs(d1[0] - 2 * d1[1] + d1[2]) / 8, &row->lo1, &row->hi1);
     range3(d2[0], d2[1], d2[2], corner + more * fabs(d2[0] - 2 * d2[1] + d2[2]) / 8, &row->lo2, &row->hi2);
@@ -109,8 +110,8 @@ static void fill_row(struct traj_row *row, const double d1[3], const double d2[3
 }
 
 /* Rows of all axes and joints. at: the path at the cell's ends and middle. -1: joints have no solution. */
-static int fill_rows(struct traj *tj, const struct traj_cell *c, const struct path_jet at[3], const struct corners *corner,
-                     struct traj_row *rows, int *count)
+static int fill_rows(struct traj *tj, const struct traj_cell *c, const struct path_jet at[3],
+                     const struct corners *corner, struct traj_row *rows, int *count)
 {
     struct limits *lim = &tj->lim;
     const struct traj_seg *g = traj_cseg(tj, c->seg);
@@ -181,8 +182,9 @@ static double jerk_bound(const struct traj_row *rows, int count, double top, dou
  * turn from one bound to the other. While step() is at b, or anywhere above, the mean is no faster than
  * by what the bounds u allow in half a window: this makes more of them where motion is slower than it
  * might be. In b it is concave where speed is above that gain; below cap / 2 it is taken as constant. */
-static void jerk_bounds(const struct traj_row *rows, int count, double top, double cap, double window, double lag, int turns,
-                        double share, double u, double bound[3])
+static void jerk_bounds(const struct traj_row *rows, int count, double top, double cap,
+                        double window, double lag, int turns, double share, double u,
+                        double bound[3])
 {
     double slow = sqrt(cap / 2), build = turns ? window / 2 : window, gain;
 
@@ -322,7 +324,9 @@ static int choose_window(const struct traj *tj, uint32_t index)
     for (; end != tj->end && end - index < CELL_MOVES; end++)
         if (end != index && traj_cseg(tj, end)->join == JOIN_REST) break;
     const struct traj_seg *last = traj_cseg(tj, end - 1);
-    if (end != tj->end ? traj_cseg(tj, end)->join == JOIN_REST : tj->tail_forced || last->end == TRAJ_STOP) len = last->s1 - start;
+    if (end != tj->end ? traj_cseg(tj, end)->join == JOIN_REST
+                       : tj->tail_forced || last->end == TRAJ_STOP)
+        len = last->s1 - start;
 
     int most = 1;
     for (uint32_t t = index; t != end; t++) {
@@ -478,7 +482,8 @@ static inline double greater(double a, double b)
 }
 
 /* A bound that reaches `far` counts from or up to a place in piece p; on all of p where that is short. */
-static void note_reach(struct traj_reach *r, const struct traj_cell *p, const struct traj_cell *by, double far, double from, double to)
+static void note_reach(struct traj_reach *r, const struct traj_cell *p, const struct traj_cell *by,
+                       double far, double from, double to)
 {
     double end = p->s0 + p->len;
 

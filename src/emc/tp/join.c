@@ -30,7 +30,8 @@ double axis_acc(const struct traj *tj, int axis, const struct traj_seg *g)
 }
 
 /* Largest |value of an axis| / limit, and of joints that are several axes. 0 limits do not count. */
-static double worst_ratio(const struct traj *tj, const double value[PATH_AXES], const double limit[PATH_AXES], int which)
+static double worst_ratio(const struct traj *tj, const double value[PATH_AXES],
+                          const double limit[PATH_AXES], int which)
 {
     double worst = 0;
     for (int i = 0; i < PATH_AXES; i++)
@@ -103,7 +104,8 @@ static void join_rest(struct traj *tj, struct traj_seg *g)
  * are none. */
 static double kink_speed(const struct traj *tj, const struct traj_seg *g)
 {
-    double dt = tj->dt, v = 1e30, step = acc_ratio(tj, g, g->du), jerk = jerk_ratio(tj, g->du), bend = jerk_ratio(tj, g->dk);
+    double dt = tj->dt, v = 1e30, step = acc_ratio(tj, g, g->du), jerk = jerk_ratio(tj, g->du),
+           bend = jerk_ratio(tj, g->dk);
 
     if (step > 0) v = fmin(v, KINK_SHARE * dt / step);
     if (jerk > 0) v = fmin(v, KINK_SHARE * dt * dt / (2 * jerk));
@@ -160,7 +162,8 @@ static void make_join(struct traj *tj, uint32_t index, int rest_before)
     room = g->s0 - tj->cut_s;
     if (biggest < SMOOTH_SHARE && curl < SMOOTH_SHARE) {
         g->join = JOIN_SMOOTH;
-        /* Motion may be in cells already that were ripe for an end at rest here: no bound of what comes was spread to them. */
+        /* Motion may be in cells already that were ripe for an end at rest here: no bound of what
+         * comes was spread to them. */
         if (tj->lim.jerk_on && room <= 0) join_rest(tj, g);
         return;
     }
@@ -300,7 +303,8 @@ static void spread_rounding(struct traj *tj, uint32_t c)
         g->hi = c;
         if (at->w > 0) {
             path_round(fmin(1, (g->s0 - at->s0) / at->w), 1, k);
-            g->off += t == c ? deviation(at, at->w) : at->bend * at->w * k[0] + at->curl * at->w * at->w * PATH_BEND_PEAK;
+            g->off += t == c ? deviation(at, at->w)
+                             : at->bend * at->w * k[0] + at->curl * at->w * at->w * PATH_BEND_PEAK;
         }
     }
     for (uint32_t t = c - 1;; t--) {

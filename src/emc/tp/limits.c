@@ -127,7 +127,8 @@ void limits_probe(struct limits *lim, const double p[PATH_AXES])
 
 /* Joints at the place of jet and at one and two steps h before and after it: 0, -1: one is not reached, -2: nor is the
  * place itself. */
-static int sample_points(struct limits *lim, const struct path_jet *jet, double h, double q[LIMITS_POINTS][LIMITS_JOINTS])
+static int sample_points(struct limits *lim, const struct path_jet *jet, double h,
+                         double q[LIMITS_POINTS][LIMITS_JOINTS])
 {
     double p[PATH_AXES];
 
@@ -157,7 +158,8 @@ int limits_sample(struct limits *lim, const struct path_jet *jet, struct limits_
     }
     if (d2 > 0) h = fmin(h, STEP_BEND / sqrt(d2));
     if (d3 > 0) h = fmin(h, STEP_BEND / sqrt(sqrt(d3)));
-    for (int n = 0; n < EDGE_TRIES && found == -1; n++, h *= found ? EDGE_STEP : 1) found = sample_points(lim, jet, h, q);
+    for (int n = 0; n < EDGE_TRIES && found == -1; n++, h *= found ? EDGE_STEP : 1)
+        found = sample_points(lim, jet, h, q);
     if (found) return -1;
     for (int n = 0; n < lim->joints; n++) {
         double a = q[0][n], b = q[1][n], c = q[2][n], d = q[3][n], e = q[4][n];

@@ -62,7 +62,8 @@ static int may_start(TP_STRUCT *tp, struct planner *pl, uint32_t index)
         if (!tp_mot.get_rotary_is_unlocked(info->indexer)) return 0;
     }
     if (info->tap) return tp_sync_start(tp, pl, info, info->tap_acc, info->tap_vmax);
-    if (info->sync.mode == SYNC_POSITION && !goes_on) return tp_sync_start(tp, pl, info, traj_acc(&pl->tj, index), g->vmax);
+    if (info->sync.mode == SYNC_POSITION && !goes_on)
+        return tp_sync_start(tp, pl, info, traj_acc(&pl->tj, index), g->vmax);
     return 1;
 }
 
@@ -187,9 +188,11 @@ static void watch_standing(struct planner *pl, double place)
     else if (!(tj->drive.vlimit > 0))
         rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits: the limit of speed is set to zero\n", info->id);
     else
-        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: motion stands for %g s without a reason, %u moves queued; "
-                        "place %.9g in %.9g to %.9g, cells %u %u %u, final to %.9g\n", info->id, STAND_TIME, tp_depth(pl),
-                        tj->place, g->s0, g->s1, tj->cell_first, tj->cell, tj->cell_end, tj->s_final);
+        rtapi_print_msg(RTAPI_MSG_ERR,
+                        "line %d: motion stands for %g s without a reason, %u moves queued; "
+                        "place %.9g in %.9g to %.9g, cells %u %u %u, final to %.9g\n",
+                        info->id, STAND_TIME, tp_depth(pl), tj->place, g->s0, g->s1, tj->cell_first,
+                        tj->cell, tj->cell_end, tj->s_final);
 }
 
 /* Moves to machine coordinates are made without the offsets of the axes they name; these come back with the next move

@@ -61,8 +61,9 @@ double tp_follow_lead(const struct planner *pl, const struct move_info *info)
 /* A spindle that turns too fast for the machine to follow ends the path: the pitch would be wrong. */
 static void refuse_speed(struct planner *pl, const struct move_info *info, double vmax)
 {
-    rtapi_print_msg(RTAPI_MSG_ERR, "line %d: following spindle %d needs %g units/s, the machine's limit is %g\n", info->id,
-                    info->sync.spindle, info->sync.upr * fabs(pl->follow.speed), vmax);
+    rtapi_print_msg(RTAPI_MSG_ERR,
+                    "line %d: following spindle %d needs %g units/s, the machine's limit is %g\n",
+                    info->id, info->sync.spindle, info->sync.upr * fabs(pl->follow.speed), vmax);
     tp_fail(pl);
 }
 
@@ -128,8 +129,11 @@ static int index_plausible(struct planner *pl, const struct move_info *info)
     pl->from_index[n] = 1;
     if (known && w->gap > 0.5 && fabs(w->gap - round(w->gap)) <= gap_tolerance(w)) return 1;
     if (w->turned > GAP_TURNS) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: spindle %d gives its index %.3g revolutions after the one before, not once a "
-                        "revolution: see spindle.%d.index-enable and spindle.%d.revs\n", info->id, n, w->gap, n, n);
+        rtapi_print_msg(
+            RTAPI_MSG_ERR,
+            "line %d: spindle %d gives its index %.3g revolutions after the one before, not once a "
+            "revolution: see spindle.%d.index-enable and spindle.%d.revs\n",
+            info->id, n, w->gap, n, n);
         tp_fail(pl);
         return 0;
     }
@@ -147,13 +151,18 @@ static int index_accepted(struct planner *pl, const struct move_info *info)
 
     if (counts_from_index(pl, n)) return index_plausible(pl, info);
     if (pl->encoder[n] == ENCODER_RESETS) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "line %d: spindle %d counts %g revolutions right after its index: spindle.%d.index-enable was "
-                        "cleared without one\n", info->id, n, revs, n);
+        rtapi_print_msg(RTAPI_MSG_ERR,
+                        "line %d: spindle %d counts %g revolutions right after its index: "
+                        "spindle.%d.index-enable was "
+                        "cleared without one\n",
+                        info->id, n, revs, n);
         tp_fail(pl);
         return 0;
     }
     if (pl->encoder[n] == ENCODER_UNKNOWN)
-        rtapi_print("motion: spindle.%d.revs is not reset at the index: threads start at whole revolutions of its count\n", n);
+        rtapi_print("motion: spindle.%d.revs is not reset at the index: threads start at whole "
+                    "revolutions of its count\n",
+                    n);
     pl->encoder[n] = ENCODER_COUNTS_ON;
     return 1;
 }
@@ -219,7 +228,9 @@ double tp_sync_speed(struct planner *pl)
 void tp_check_phase(struct planner *pl)
 {
     if (pl->out_of_phase < 0) return;
-    rtapi_print_msg(RTAPI_MSG_ERR, "line %d: the thread ended before it was in phase with spindle %d: begin it farther away, or turn slower\n",
+    rtapi_print_msg(RTAPI_MSG_ERR,
+                    "line %d: the thread ended before it was in phase with spindle %d: begin it "
+                    "farther away, or turn slower\n",
                     pl->out_of_phase, pl->followed);
     pl->out_of_phase = -1;
 }
@@ -260,15 +271,19 @@ void tp_watch_waiting(const TP_STRUCT *tp, struct planner *pl)
             rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits for an index since %g s: spindle.%d.index-enable\n",
                             tp->spindle.waiting_for_index, TELL_TIME, pl->followed);
         else
-            rtapi_print("motion: line %d waits for an index: spindle.%d.index-enable\n", tp->spindle.waiting_for_index, pl->followed);
+            rtapi_print("motion: line %d waits for an index: spindle.%d.index-enable\n",
+                        tp->spindle.waiting_for_index, pl->followed);
         return;
     }
     for (int i = 0; i < tp_mot.config->numSpindles; i++) {
         const struct spindle_status *sp = &tp_mot.status->spindle_status[i];
         if (!waits_for(info_of(pl, (uint32_t)move), i)) continue;
         if (tell)
-            rtapi_print_msg(RTAPI_MSG_ERR, "line %d waits for spindle.%d.at-speed since %g s: %g rpm are commanded, %g measured\n",
-                            tp->spindle.waiting_for_atspeed, i, TELL_TIME, sp->rpm, sp->spindleSpeedIn * 60);
+            rtapi_print_msg(RTAPI_MSG_ERR,
+                            "line %d waits for spindle.%d.at-speed since %g s: %g rpm are "
+                            "commanded, %g measured\n",
+                            tp->spindle.waiting_for_atspeed, i, TELL_TIME, sp->rpm,
+                            sp->spindleSpeedIn * 60);
         else
             rtapi_print("motion: line %d waits for spindle.%d.at-speed\n", tp->spindle.waiting_for_atspeed, i);
     }

@@ -96,7 +96,9 @@ static void next_state(struct planner *pl, const struct move_info *info)
         }
         break;
     case TAP_PLACE:
-        if (fabs(tap->x) > 1e-9 || fabs(tap->v) > 2 * info->tap_acc * pl->cycle || !traj_filter_settled(&tap->filter)) break;
+        if (fabs(tap->x) > 1e-9 || fabs(tap->v) > 2 * info->tap_acc * pl->cycle ||
+            !traj_filter_settled(&tap->filter))
+            break;
         tap->x = tap->place = tap->v = 0;
         tap->state = TAP_IDLE;
         traj_finish(&pl->tj);

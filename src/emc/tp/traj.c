@@ -136,7 +136,8 @@ static double accelerated(const struct traj_line line[2], double v, double t)
 }
 
 /* Highest speed in [lo, hi] after t such that the boundary at distance d can still be met with b_end. */
-static double braked(const struct traj_cell *c, const struct traj_line brake[2], double b_end, double d, double v, double t, double lo, double hi)
+static double braked(const struct traj_cell *c, const struct traj_line brake[2], double b_end,
+                     double d, double v, double t, double lo, double hi)
 {
     if ((v + hi) * t / 2 > d) hi = 2 * d / t - v;
     if (hi <= lo) return lo;
@@ -344,7 +345,9 @@ static int move_path(struct traj *tj, struct leave may)
             if (!next_cell(tj)) break;
             continue;
         }
-        double b_end, v = tj->v, b = v * v, vt = fmin(target_speed(tj, c), did & 2 ? v : fmax(v, may.top)), ve2, t = left, x;
+        double b_end, v = tj->v, b = v * v,
+                      vt = fmin(target_speed(tj, c), did & 2 ? v : fmax(v, may.top)), ve2, t = left,
+                      x;
         if (tj->dir > 0) b_end = tj->cell + 1 == tj->cell_end ? 0 : cell_at(tj, tj->cell + 1)->k;
         else b_end = tj->cell == tj->cell_first ? 0 : c->kr;
         if (!may.brake) vt = fmax(vt, v);

@@ -4,7 +4,7 @@ $(eval $(call pymodule,linuxcnc,$(addprefix src/emc/usr_intf/python/,linuxcncmod
     nml linuxcncini tooldata linuxcnchal,-Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf -fvisibility=hidden))
 $(eval $(call program,halui,src/emc/usr_intf/halui/halui.cc src/emc/nml/emc_args.cc $(CLIENT_SOURCES),nml linuxcncini tooldata linuxcnchal, \
     -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
-$(eval $(call program,linuxcncrsh,$(addprefix src/emc/usr_intf/rsh/,main.cc session.cc subcommands.cc) src/emc/nml/emc_args.cc $(CLIENT_SOURCES),nml linuxcncini linuxcnchal, \
+$(eval $(call program,linuxcncrsh,$(addprefix src/emc/usr_intf/rsh/,main.cc session.cc arguments.cc subcommands.cc) src/emc/nml/emc_args.cc $(CLIENT_SOURCES),nml linuxcncini linuxcnchal, \
     -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
 $(foreach s,mdi schedrmt linuxcnclcd axis-remote pyvcp pyvcp_demo mtconnect-agent,$(eval $(call script,$(s),src/emc/usr_intf/scripts/$(s))))
 $(eval $(call program,tool_watch,src/emc/usr_intf/tool_watch.cc $(CLIENT_SOURCES),nml linuxcncini tooldata linuxcnchal, \

@@ -17,8 +17,8 @@ int main(int argc, char **argv) {
         fprintf(stderr, "tool_watch: no controller is running\n");
         return 1;
     }
-    fprintf(stderr, "sizes: EMC_STAT %zu, EMC_IO_STAT %zu, EMC_TOOL_STAT %zu, tool record %zu\n", sizeof(EMC_STAT), sizeof(EMC_IO_STAT), sizeof(EMC_TOOL_STAT),
-            sizeof(CANON_TOOL_TABLE));
+    fprintf(stderr, "sizes: EMC_STAT %zu, EMC_IO_STAT %zu, EMC_TOOL_STAT %zu, tool record %zu\n", sizeof(EMC_STAT),
+            sizeof(EMC_IO_STAT), sizeof(EMC_TOOL_STAT), sizeof(CANON_TOOL_TABLE));
     int bad = 0;
     unsigned long heartbeat = 0;
     for (int line = 0; bad <= PATIENCE; kerf_clock_sleep_ns(SECOND)) {
@@ -32,9 +32,11 @@ int main(int argc, char **argv) {
         heartbeat = s.task.taskbeat;
         CANON_TOOL_TABLE t = tooldata_entry_init();
         tooldata_get(&t, 0);
-        if (line++ % HEADER_EVERY == 0) fprintf(stderr, "%8s %8s %6s %6s %8s %8s %8s %8s\n", "PrepIDX", "Spindle", "Tool", "Pocket", "Diam", "X-off", "Y-off", "Z-off");
-        fprintf(stderr, "%8d %8d %6d %6d %8.3f %8.3f %8.3f %8.3f\n", s.io.tool.pocketPrepped, s.io.tool.toolInSpindle, t.toolno, t.pocketno, t.diameter,
-                t.offset.tran.x, t.offset.tran.y, t.offset.tran.z);
+        if (line++ % HEADER_EVERY == 0)
+            fprintf(stderr, "%8s %8s %6s %6s %8s %8s %8s %8s\n", "PrepIDX", "Spindle", "Tool", "Pocket", "Diam",
+                    "X-off", "Y-off", "Z-off");
+        fprintf(stderr, "%8d %8d %6d %6d %8.3f %8.3f %8.3f %8.3f\n", s.io.tool.pocketPrepped, s.io.tool.toolInSpindle,
+                t.toolno, t.pocketno, t.diameter, t.offset.tran.x, t.offset.tran.y, t.offset.tran.z);
     }
     fprintf(stderr, "tool_watch: the controller gives no new status any more\n");
     return 0;

@@ -175,7 +175,9 @@ static int32_t *plain(const struct ladder *l, int type, int number)
 
 static struct timer *old_timer(const struct ladder *l, int number)
 {
-    return number >= 0 && number < l->sizes.timers ? &LADDER((struct ladder *)(uintptr_t)l, timers, struct timer)[number] : NULL;
+    return number >= 0 && number < l->sizes.timers
+               ? &LADDER((struct ladder *)(uintptr_t)l, timers, struct timer)[number]
+               : NULL;
 }
 
 static struct timer *monostable(const struct ladder *l, int number)

@@ -237,8 +237,10 @@ static void capture_channel(struct channel *c)
     hal_set_si32(c->counts_latched, (rtapi_s32)(rtapi_u64)latched);
     hal_set_real(c->position, counts * c->k);
     hal_set_real(c->position_latched, latched * c->k);
-    hal_set_real(c->position_interpolated,
-                 counts * c->k + velocity * ((__atomic_load_n(&timebase, __ATOMIC_RELAXED) - c->last_timestamp) * 1e-9));
+    hal_set_real(
+        c->position_interpolated,
+        counts * c->k +
+            velocity * ((__atomic_load_n(&timebase, __ATOMIC_RELAXED) - c->last_timestamp) * 1e-9));
 }
 
 /* HAL function encoder.capture-position. [servo] */

@@ -39,9 +39,11 @@ static const struct wiring {
     enum reg reg;
     rtapi_u8 bit;
 } wiring[] = {
-    {1, CONTROL, 0x01}, {2, DATA, 0x01},    {3, DATA, 0x02},    {4, DATA, 0x04},    {5, DATA, 0x08},    {6, DATA, 0x10},
-    {7, DATA, 0x20},    {8, DATA, 0x40},    {9, DATA, 0x80},    {10, STATUS, 0x40}, {11, STATUS, 0x80}, {12, STATUS, 0x20},
-    {13, STATUS, 0x10}, {14, CONTROL, 0x02}, {15, STATUS, 0x08}, {16, CONTROL, 0x04}, {17, CONTROL, 0x08},
+    {1, CONTROL, 0x01},  {2, DATA, 0x01},     {3, DATA, 0x02},    {4, DATA, 0x04},
+    {5, DATA, 0x08},     {6, DATA, 0x10},     {7, DATA, 0x20},    {8, DATA, 0x40},
+    {9, DATA, 0x80},     {10, STATUS, 0x40},  {11, STATUS, 0x80}, {12, STATUS, 0x20},
+    {13, STATUS, 0x10},  {14, CONTROL, 0x02}, {15, STATUS, 0x08}, {16, CONTROL, 0x04},
+    {17, CONTROL, 0x08},
 };
 #define PINS ((int)(sizeof wiring / sizeof wiring[0]))
 
@@ -273,8 +275,11 @@ static int address_of(const char *word, int length, unsigned short *address)
         int c = word[i] | 0x20;
         int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
         if(digit < 0 || value > 0xFFF) {
-            rtapi_print_msg(RTAPI_MSG_ERR, "PARPORT: ERROR: '%.*s' in cfg=\"%s\" is not an address: use 0x378, 378, or the "
-                            "number of a Linux port\n", length, word, cfg);
+            rtapi_print_msg(
+                RTAPI_MSG_ERR,
+                "PARPORT: ERROR: '%.*s' in cfg=\"%s\" is not an address: use 0x378, 378, or the "
+                "number of a Linux port\n",
+                length, word, cfg);
             return -EINVAL;
         }
         value = value * 16 + (unsigned)digit;

@@ -67,7 +67,9 @@ PYBIND11_MODULE(_hal, m)
     bind_component(m);
     bind_stream(m);
     bind_query(m);
-    m.def("set_msg_level", [](int level) { rtapi_set_msg_level(level); }, "Messages of the HAL library, MSG_NONE to MSG_ALL.");
+    m.def(
+        "set_msg_level", [](int level) { rtapi_set_msg_level(level); },
+        "Messages of the HAL library, MSG_NONE to MSG_ALL.");
     m.def("get_msg_level", &rtapi_get_msg_level);
     m.def("_get_realtime_type", [] { return static_cast<int>(hal_get_realtime_type()); });
     m.def("is_initialized", [] { return hal_is_init() != 0; });

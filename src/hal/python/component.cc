@@ -168,7 +168,8 @@ void Component::ready()
     if (result < 0) throw_hal_error(result);
     // A script that keeps out of the simulated clock gives up the place that was reserved for it:
     // time would stand until somebody notices that it never joins.
-    if (std::getenv(KERF_CLOCK_SLOT_ENV) && !kerf_clock_joined() && kerf_clock_join(state_->name.c_str(), KERF_CLOCK_PRIO_USER) == 0) {
+    if (std::getenv(KERF_CLOCK_SLOT_ENV) && !kerf_clock_joined() &&
+        kerf_clock_join(state_->name.c_str(), KERF_CLOCK_PRIO_USER) == 0) {
         kerf_clock_leave();
         unsetenv(KERF_CLOCK_SLOT_ENV);
     }

@@ -412,8 +412,10 @@ void bind_query(py::module_ &m)
     });
     m.def("pin_has_writer", &pin_has_writer, "Is the pin linked to a signal with an output?");
     m.def("new_sig", &new_sig, "Makes a signal. Returns True on failure.");
-    m.def("connect", [](const std::string &pin, const std::string &sig) { return hal_link(pin.c_str(), sig.c_str()) != 0; },
-          "Links a pin to a signal. Returns True on failure.");
+    m.def(
+        "connect",
+        [](const std::string &pin, const std::string &sig) { return hal_link(pin.c_str(), sig.c_str()) != 0; },
+        "Links a pin to a signal. Returns True on failure.");
     m.def("disconnect", [](const std::string &pin) { return hal_unlink(pin.c_str()) != 0; },
           "Unlinks a pin. Returns True on failure.");
     m.def("set_p", &set_p, "Sets a pin or parameter by name; True or RuntimeError.");

@@ -73,7 +73,12 @@ public:
     {
         std::string letters;
         for (hal_type_t t : types_)
-            letters += t == HAL_BIT ? 'b' : t == HAL_FLOAT ? 'f' : t == HAL_S32 ? 's' : t == HAL_U32 ? 'u' : t == HAL_S64 ? 'l' : 'k';
+            letters += t == HAL_BIT     ? 'b'
+                       : t == HAL_FLOAT ? 'f'
+                       : t == HAL_S32   ? 's'
+                       : t == HAL_U32   ? 'u'
+                       : t == HAL_S64   ? 'l'
+                                        : 'k';
         return letters;
     }
     std::string repr() const
@@ -137,8 +142,8 @@ private:
 void bind_stream(py::module_ &m)
 {
     using namespace py::literals;
-    py::class_<Stream>(m, "stream",
-                       "stream(component, key, depth, types) makes a stream, stream(component, key[, types]) opens one.")
+    py::class_<Stream>(
+        m, "stream", "stream(component, key, depth, types) makes a stream, stream(component, key[, types]) opens one.")
         .def(py::init<std::shared_ptr<Component>, int, py::args>())
         .def("read", &Stream::read, "The oldest record as a tuple, or None.")
         .def("write", &Stream::write, "record"_a, "Queues one record (a tuple); OSError ENOSPC when full.")

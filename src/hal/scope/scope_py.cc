@@ -50,7 +50,8 @@ public:
 
     void reset()
     {
-        if (state() != SCOPE_IDLE && state() != SCOPE_DONE) __atomic_store_n(&shm_->state, SCOPE_RESET, __ATOMIC_RELEASE);
+        if (state() != SCOPE_IDLE && state() != SCOPE_DONE)
+            __atomic_store_n(&shm_->state, SCOPE_RESET, __ATOMIC_RELEASE);
     }
 
     /// Where a pin, parameter ("pin", "param") or signal ("sig") has its value. It moves when a pin is
@@ -80,8 +81,8 @@ public:
     {
         int now = state();
         if (now != SCOPE_IDLE && now != SCOPE_DONE) throw std::runtime_error("scope_rt is busy");
-        if (sample_len < 1 || sample_len > SCOPE_CHANNELS || rec_len < 1 || pre_trig < 0 || pre_trig >= rec_len || mult < 1 ||
-            static_cast<unsigned long long>(sample_len) * static_cast<unsigned>(rec_len) > shm_->buf_len)
+        if (sample_len < 1 || sample_len > SCOPE_CHANNELS || rec_len < 1 || pre_trig < 0 || pre_trig >= rec_len ||
+            mult < 1 || static_cast<unsigned long long>(sample_len) * static_cast<unsigned>(rec_len) > shm_->buf_len)
             throw std::invalid_argument("scope settings out of range");
         shm_->sample_len = sample_len;
         shm_->rec_len = rec_len;
@@ -118,11 +119,13 @@ public:
             values[i].reserve(end - oldest);
             const int type = shm_->sources[i].type;
             for (unsigned long long n = oldest; n < end; n++)
-                values[i].push_back(scope_number(shm_->data[n % static_cast<unsigned>(rec) * static_cast<unsigned>(len) + i], type));
+                values[i].push_back(
+                    scope_number(shm_->data[n % static_cast<unsigned>(rec) * static_cast<unsigned>(len) + i], type));
         }
         unsigned long long lost = 0;
         if (state() != SCOPE_DONE && state() != SCOPE_IDLE) { // the next sample may be half written already
-            const unsigned long long safe = count() + 1 > static_cast<unsigned>(rec) ? count() + 1 - static_cast<unsigned>(rec) : 0;
+            const unsigned long long safe =
+                count() + 1 > static_cast<unsigned>(rec) ? count() + 1 - static_cast<unsigned>(rec) : 0;
             lost = std::min(end, std::max(oldest, safe)) - oldest;
         }
         py::list out;
@@ -138,8 +141,8 @@ private:
 
 /// For a drawing: least and greatest value in each of `columns` equal parts of the samples
 /// first..last (may reach beyond the data). Returns [(column, least, greatest, first, last), ...].
-std::vector<std::tuple<int, double, double, double, double>> columns(py::buffer data, double first, double last, int columns)
-{
+std::vector<std::tuple<int, double, double, double, double>> columns(py::buffer data, double first, double last,
+                                                                     int columns) {
     py::buffer_info info = data.request();
     if (info.itemsize != sizeof(double) || info.ndim != 1) throw std::invalid_argument("an array of doubles is needed");
     const double *v = static_cast<const double *>(info.ptr);
@@ -225,7 +228,8 @@ PYBIND11_MODULE(kerf_scope, m)
         .def("source", &Scope::source, py::arg("place"), py::arg("kind"), py::arg("name"))
         .def("start", &Scope::start, py::arg("sample_len"), py::arg("rec_len"), py::arg("pre_trig"), py::arg("mult"),
              py::arg("trig_source"), py::arg("level"), py::arg("rising"), py::arg("auto"), py::arg("roll"))
-        .def("retrigger", &Scope::retrigger, py::arg("trig_source"), py::arg("level"), py::arg("rising"), py::arg("auto"))
+        .def("retrigger", &Scope::retrigger, py::arg("trig_source"), py::arg("level"), py::arg("rising"),
+             py::arg("auto"))
         .def("force", &Scope::force)
         .def("reset", &Scope::reset, "no more samples")
         .def("record", &Scope::record);

@@ -607,7 +607,8 @@ static void case_streams(void)
     SHOW(hal_stream_attach(&b, id, 4711, "fs"));
     SHOW(hal_stream_attach(&b, id, 4711, "fbsulkf"));
     SHOW(hal_stream_attach(&b, id, 4711, "FB"));
-    printf("%d elements, depth %d of %u\n", hal_stream_element_count(&b), hal_stream_depth(&b), hal_stream_maxdepth(&b));
+    printf("%d elements, depth %d of %u\n", hal_stream_element_count(&b), hal_stream_depth(&b),
+           hal_stream_maxdepth(&b));
     for (int i = -1; i < 7; i++) {
         printf("type %d: %d\n", i, hal_stream_element_type(&b, i));
     }

@@ -127,7 +127,8 @@ static void check_pin(struct hal_pin *pin)
     }
     if (comp) {
         uint64_t points = *(uint64_t *)halp_ptr(pin->var);
-        EXPECT(points == comp->base + halp_off(sig ? &sig->value : &pin->own), "pin '%s' points elsewhere", pin->o.name);
+        EXPECT(points == comp->base + halp_off(sig ? &sig->value : &pin->own),
+               "pin '%s' points elsewhere", pin->o.name);
     }
     const struct hal_alias *a = halp_ptr(pin->alias);
     if (a) {
@@ -150,8 +151,9 @@ static void check_signal(struct hal_sig *sig)
         before = at;
         at = pin->member_next;
     }
-    EXPECT(in == sig->readers && out == sig->writers && io == sig->bidirs, "signal '%s' counts %d/%d/%d pins, has %d/%d/%d",
-           sig->o.name, sig->readers, sig->writers, sig->bidirs, in, out, io);
+    EXPECT(in == sig->readers && out == sig->writers && io == sig->bidirs,
+           "signal '%s' counts %d/%d/%d pins, has %d/%d/%d", sig->o.name, sig->readers,
+           sig->writers, sig->bidirs, in, out, io);
     EXPECT(out <= 1 && !(out && io), "signal '%s' has more than one writer", sig->o.name);
 }
 

@@ -527,9 +527,11 @@ int main(int argc, char **argv)
     } else if (strcmp(what, "kills") == 0) {
         run_kills(argc > 2 ? atoi(argv[2]) : 200, argc > 3 ? (unsigned)atol(argv[3]) : 1);
     } else if (strcmp(what, "together") == 0) {
-        run_together(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000, argc > 4 ? (unsigned)atol(argv[4]) : 1);
+        run_together(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000,
+                     argc > 4 ? (unsigned)atol(argv[4]) : 1);
     } else if (strcmp(what, "threads") == 0) {
-        run_threads(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000, argc > 4 ? (unsigned)atol(argv[4]) : 1);
+        run_threads(argc > 2 ? atoi(argv[2]) : 4, argc > 3 ? atol(argv[3]) : 10000,
+                    argc > 4 ? (unsigned)atol(argv[4]) : 1);
     } else if (strcmp(what, "hang") == 0) {
         run_hang();
     } else if (strcmp(what, "beat") == 0) {

@@ -10,7 +10,8 @@
 #include <string>
 
 /// The one of `choices` that `text` is, or begins alone. Null, with a message on stderr, otherwise.
-inline const char *one_of(const char *program, const char *what, const char *text, std::initializer_list<const char *> choices) {
+inline const char *one_of(const char *program, const char *what, const char *text,
+                          std::initializer_list<const char *> choices) {
     const char *found = nullptr;
     int matches = 0;
     for (const char *c : choices) {
@@ -21,7 +22,8 @@ inline const char *one_of(const char *program, const char *what, const char *tex
         }
     }
     if (matches == 1) return found;
-    fprintf(stderr, "%s: %s %s: %s; possible:", program, what, text, matches > 1 ? "could be several" : "not one of the values");
+    fprintf(stderr, "%s: %s %s: %s; possible:", program, what, text,
+            matches > 1 ? "could be several" : "not one of the values");
     for (const char *c : choices) fprintf(stderr, " %s", c);
     fprintf(stderr, "\n");
     return nullptr;

@@ -100,7 +100,8 @@ static void lists_at_random() {
         default:
             if (!known.empty()) {
                 size_t i = random() % known.size();
-                wrong += known[i].second != text(list.get_by_id(known[i].first)) || known[i].second != text(list.find_node(static_cast<int>(i)));
+                wrong += known[i].second != text(list.get_by_id(known[i].first)) ||
+                         known[i].second != text(list.find_node(static_cast<int>(i)));
             }
         }
         wrong += list.list_size != static_cast<int>(known.size());
@@ -172,7 +173,8 @@ static void memory() {
         RCS_SHAREDMEM a(KEY, 100, RCS_SHAREDMEM_CREATE);
         {
             RCS_SHAREDMEM b(KEY, 100, RCS_SHAREDMEM_CREATE);
-            printf("made %d %d, attached %d, zero %d\n", a.created, b.created, a.nattch(), *static_cast<char *>(b.addr));
+            printf("made %d %d, attached %d, zero %d\n", a.created, b.created, a.nattch(),
+                   *static_cast<char *>(b.addr));
             strcpy(static_cast<char *>(a.addr), "shared");
             printf("%s\n", static_cast<char *>(b.addr));
         }

@@ -28,11 +28,14 @@
 
 static std::string nml_file;
 
-static NML open_as(const char *buffer, const char *process) { return NML(emc_messages(), buffer, process, nml_file.c_str()); }
+static NML open_as(const char *buffer, const char *process) {
+    return NML(emc_messages(), buffer, process, nml_file.c_str());
+}
 
 // All buffers, made as linuxcncsvr makes them; removed at the end.
 struct Master {
-    NML command = open_as("emcCommand", "emcsvr"), status = open_as("emcStatus", "emcsvr"), error = open_as("emcError", "emcsvr");
+    NML command = open_as("emcCommand", "emcsvr"), status = open_as("emcStatus", "emcsvr"),
+        error = open_as("emcError", "emcsvr");
     ~Master() {
         for (auto &b : nml::buffers_of(nml_file)) {
             int id = shmget(kerf_instance_key(b.key), 0, 0);
@@ -72,7 +75,9 @@ static void queue_keeps_order() {
         for (int i = 0; i < n; i++) {
             NMLTYPE t = out.read();
             if (t == 0) break;
-            int value = t == EMC_JOINT_HOME_TYPE ? out.get<EMC_JOINT_HOME>()->joint : t == EMC_TASK_PLAN_EXECUTE_TYPE ? atoi(out.get<EMC_TASK_PLAN_EXECUTE>()->command) : -1;
+            int value = t == EMC_JOINT_HOME_TYPE          ? out.get<EMC_JOINT_HOME>()->joint
+                        : t == EMC_TASK_PLAN_EXECUTE_TYPE ? atoi(out.get<EMC_TASK_PLAN_EXECUTE>()->command)
+                                                          : -1;
             if (value != expect || out.get<RCS_CMD_MSG>()->serial_number != value) wrong++;
             expect++;
             got++;
@@ -160,7 +165,9 @@ static void status_is_never_torn() {
         }
         seen++;
         const EMC_STAT &s = *in.get<EMC_STAT>();
-        if (s.task.taskbeat != s.motion.heartbeat || static_cast<int>(s.task.taskbeat) != s.error_line || s.motion.synch_di[63] != s.error_line) torn++;
+        if (s.task.taskbeat != s.motion.heartbeat || static_cast<int>(s.task.taskbeat) != s.error_line ||
+            s.motion.synch_di[63] != s.error_line)
+            torn++;
     }
     kill(writer, SIGKILL);
     waitpid(writer, nullptr, 0);
@@ -195,7 +202,8 @@ static void killed_client_blocks_nobody() {
         int length = out.get_queue_length(), got = 0;
         while (out.read() > 0) got++;
         clock_gettime(CLOCK_MONOTONIC, &t1);
-        slowest = std::max(slowest, static_cast<double>(t1.tv_sec - t0.tv_sec) + static_cast<double>(t1.tv_nsec - t0.tv_nsec) * 1e-9);
+        slowest = std::max(slowest, static_cast<double>(t1.tv_sec - t0.tv_sec) +
+                                        static_cast<double>(t1.tv_nsec - t0.tv_nsec) * 1e-9);
         if (got != length) lost++;
         if (out.status < 0) lost++;
     }
@@ -244,14 +252,17 @@ static void tcp_carries_every_message() {
     Master m;
     static volatile int stop = 0;
     nml::Server server;
-    for (auto &b : nml::buffers_of(nml_file)) server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
+    for (auto &b : nml::buffers_of(nml_file))
+        server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
     if (!server.listen()) { printf("no port\n"); return; }
     std::thread serving([&] { server.run(&stop); });
     {
         nmlForceRemoteConnection();
-        NML command = open_as("emcCommand", "xemc"), status = open_as("emcStatus", "xemc"), error = open_as("emcError", "xemc");
+        NML command = open_as("emcCommand", "xemc"), status = open_as("emcStatus", "xemc"),
+            error = open_as("emcError", "xemc");
         nmlForceLocalConnection();
-        NML task_in = open_as("emcCommand", "emc"), task_out = open_as("emcStatus", "emc"), task_error = open_as("emcError", "emc");
+        NML task_in = open_as("emcCommand", "emc"), task_out = open_as("emcStatus", "emc"),
+            task_error = open_as("emcError", "emc");
         printf("valid: %d %d %d\n", command.valid(), status.valid(), error.valid());
         int wrong = 0, count = 0, last = 0;
         for (const nml::MessageType &t : emc_messages().all()) {
@@ -263,7 +274,9 @@ static void tcp_carries_every_message() {
             int serial = 0;
             if (command.write(*msg, &serial) != 0 || serial <= last) { wrong++; continue; }
             last = serial;
-            if (task_in.read() != t.type || task_in.get<RCS_CMD_MSG>()->serial_number != serial || task_in.get_address()->size != t.size) wrong++;
+            if (task_in.read() != t.type || task_in.get<RCS_CMD_MSG>()->serial_number != serial ||
+                task_in.get_address()->size != t.size)
+                wrong++;
             count++;
         }
         printf("commands: %s, wrong %d\n", count > 90 ? "all" : "some", wrong);
@@ -278,7 +291,8 @@ static void tcp_carries_every_message() {
         g.origin.w = -1e-300;
         command.write(g);
         task_in.read();
-        printf("pose: %d %g %g\n", task_in.get<EMC_TRAJ_SET_G5X>()->g5x_index, task_in.get<EMC_TRAJ_SET_G5X>()->origin.tran.x, task_in.get<EMC_TRAJ_SET_G5X>()->origin.w);
+        printf("pose: %d %g %g\n", task_in.get<EMC_TRAJ_SET_G5X>()->g5x_index,
+               task_in.get<EMC_TRAJ_SET_G5X>()->origin.tran.x, task_in.get<EMC_TRAJ_SET_G5X>()->origin.w);
         EMC_STAT s;
         s.task.taskbeat = 0x123456789abcull;
         s.motion.joint[15].output = 3.5;
@@ -288,8 +302,8 @@ static void tcp_carries_every_message() {
         task_out.write(s);
         printf("status: %d", status.peek());
         const EMC_STAT &r = *status.get<EMC_STAT>();
-        printf(" %llx %g tag %d pocket %d line %d\n", static_cast<unsigned long long>(r.task.taskbeat), r.motion.joint[15].output, r.motion.traj.tag.fields[0],
-               r.io.tool.pocketPrepped, r.error_line);
+        printf(" %llx %g tag %d pocket %d line %d\n", static_cast<unsigned long long>(r.task.taskbeat),
+               r.motion.joint[15].output, r.motion.traj.tag.fields[0], r.io.tool.pocketPrepped, r.error_line);
         printf("again: %d\n", status.peek());
         EMC_OPERATOR_ERROR e;
         snprintf(e.error, sizeof e.error, "text");
@@ -306,45 +320,75 @@ static void tcp_carries_every_message() {
 
 // What each documented form of B and P line gives: the state of the connection and what was printed.
 static void configuration_lines() {
-    struct { const char *what, *buffer, *process, *text; } cases[] = {
+    struct {
+        const char *what, *buffer, *process, *text;
+    } cases[] = {
         {"a plain one", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"comments, short lines, continued", "a", "p", "# B a\n B a SHMEM\nx\nB a SHMEM localhost 4096 \\\n0 0 1 4 7001 queue\nP p a LOCAL localhost \\\nRW 0 INF 1 0\n"},
-        {"options in any case, hexadecimal", "a", "p", "B a SHMEM localhost 0x1000 0 0 1 4 0x1b59 Queue Confirm_Write SERIAL mutex=OS_SEM xdr\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"default buffer of the process", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP q a LOCAL localhost W 0 1.0 1 0\nP p default LOCAL localhost RW 0 1.0 1 0\n"},
-        {"default of all", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP default default LOCAL localhost RW 0 1.0 1 0\n"},
-        {"AUTO on this computer", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a AUTO localhost RW 0 1.0 1 0\n"},
-        {"autocnum with nine words", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 autocnum\nP p a LOCAL localhost RW 0 1.0 1\n"},
+        {"comments, short lines, continued", "a", "p",
+         "# B a\n B a SHMEM\nx\nB a SHMEM localhost 4096 \\\n0 0 1 4 7001 queue\nP p a LOCAL localhost \\\nRW 0 INF 1 "
+         "0\n"},
+        {"options in any case, hexadecimal", "a", "p",
+         "B a SHMEM localhost 0x1000 0 0 1 4 0x1b59 Queue Confirm_Write SERIAL mutex=OS_SEM xdr\nP p a LOCAL localhost "
+         "RW 0 1.0 1 0\n"},
+        {"default buffer of the process", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP q a LOCAL localhost W 0 1.0 1 0\nP p default LOCAL localhost RW 0 "
+         "1.0 1 0\n"},
+        {"default of all", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP default default LOCAL localhost RW 0 1.0 1 0\n"},
+        {"AUTO on this computer", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a AUTO localhost RW 0 1.0 1 0\n"},
+        {"autocnum with nine words", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 autocnum\nP p a LOCAL localhost RW 0 1.0 1\n"},
         {"in this process", "a", "p", "B a LOCMEM localhost 4096 0 0 1 4 0\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"phantom", "a", "p", "B a PHANTOM localhost 4096 0 0 1 4 0\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"phantom process", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a PHANTOM localhost RW 0 1.0 1 0\n"},
         {"nobody made it", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7002\nP p a LOCAL localhost RW 0 1.0 0 0\n"},
         {"no such buffer", "b", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"no such process", "a", "q", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"connection number too large", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 4\n"},
-        {"split and queue", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue split\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"connection number too large", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 4\n"},
+        {"split and queue", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 queue split\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"UDP", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 UDP=5\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"GLOBMEM", "a", "p", "B a GLOBMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"remote without a port", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a REMOTE localhost RW 0 1.0 1 0\n"},
-        {"mutex=none", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 mutex=none\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"mutex=mao", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=mao semdelay=0.001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"mutex=mao_w_os_sem", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=mao_w_os_sem\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"mutex=mao_split", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 split mutex=mao_split\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"mutex=no_interrupts", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 mutex=no_interrupts\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"mutex=no_switching", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=no_switching\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"diagnostics, encodings, limits", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 diag ascii disp BSEM=5 BRPI=0.1 enc_max_size=100 version=3.9\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"diagnostics of an old version", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 diag VERSION=3.7\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"four parts", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 subdiv=4\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"parts too small for the message", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 subdiv=400\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"every message is of one type", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 FORCE_TYPE=124\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
-        {"no waiting for the lock", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 queue\nP p a LOCAL localhost RW 0 0 1 0\n"},
-        {"serial port", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0 serialPortDevName=/dev/ttyS0\n"},
+        {"remote without a port", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a REMOTE localhost RW 0 1.0 1 0\n"},
+        {"mutex=none", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 mutex=none\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=mao", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=mao semdelay=0.001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=mao_w_os_sem", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=mao_w_os_sem\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=mao_split", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 split mutex=mao_split\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=no_interrupts", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 mutex=no_interrupts\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"mutex=no_switching", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 queue mutex=no_switching\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"diagnostics, encodings, limits", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 diag ascii disp BSEM=5 BRPI=0.1 enc_max_size=100 version=3.9\nP p a "
+         "LOCAL localhost RW 0 1.0 1 0\n"},
+        {"diagnostics of an old version", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 diag VERSION=3.7\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"four parts", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 subdiv=4\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"parts too small for the message", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 subdiv=400\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"every message is of one type", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 FORCE_TYPE=124\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
+        {"no waiting for the lock", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 queue\nP p a LOCAL localhost RW 0 0 1 0\n"},
+        {"serial port", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0 serialPortDevName=/dev/ttyS0\n"},
         {"FILEMEM", "a", "p", "B a FILEMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"RTLMEM", "a", "p", "B a RTLMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"too few words", "a", "p", "B a SHMEM localhost\nP p a LOCAL localhost RW 0 1.0 1 0\n"},
         {"may only write", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost W 0 1.0 1 0\n"},
         {"may only read", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost R 0 1.0 1 0\n"},
-        {"a server may do both", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost W 1 1.0 1 0\n"},
-        {"remote without a server", "a", "p", "B a SHMEM localhost 4096 0 0 1 4 7001 TCP=1\nP p a REMOTE localhost RW 0 1.0 1 0\n"}};
+        {"a server may do both", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001\nP p a LOCAL localhost W 1 1.0 1 0\n"},
+        {"remote without a server", "a", "p",
+         "B a SHMEM localhost 4096 0 0 1 4 7001 TCP=1\nP p a REMOTE localhost RW 0 1.0 1 0\n"}};
     const char *name = "configuration.nml";
     int fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0) return;
@@ -355,7 +399,8 @@ static void configuration_lines() {
         EMC_JOINT_HOME h;
         h.joint = 3;
         bool good = n.valid() && n.write(h) == 0;
-        printf("valid %d error %d status %d written %d read %d queue %d space %s\n", n.valid(), n.error_type, n.status, good, n.valid() ? n.read() : -1, n.valid() ? n.get_queue_length() : -1,
+        printf("valid %d error %d status %d written %d read %d queue %d space %s\n", n.valid(), n.error_type, n.status,
+               good, n.valid() ? n.read() : -1, n.valid() ? n.get_queue_length() : -1,
                n.valid() && n.get_space_available() > 0 ? "yes" : "no");
     }
     int id = shmget(kerf_instance_key(7001), 0, 0);
@@ -372,7 +417,8 @@ static void configuration_lines() {
 static void garbled_messages_are_refused_or_whole() {
     std::mt19937 random(3);
     const nml::MessageSet &set = emc_messages();
-    for (auto [name, coding] : {std::pair{"xdr", nml::Coding::xdr}, {"disp", nml::Coding::disp}, {"raw", nml::Coding::raw}}) {
+    for (auto [name, coding] :
+         {std::pair{"xdr", nml::Coding::xdr}, {"disp", nml::Coding::disp}, {"raw", nml::Coding::raw}}) {
         int refused = 0, taken = 0, wrong = 0;
         for (const nml::MessageType &t : set.all()) {
             std::vector<unsigned char> raw(static_cast<size_t>(t.size)), back(static_cast<size_t>(t.size));
@@ -380,25 +426,35 @@ static void garbled_messages_are_refused_or_whole() {
             msg->_type = t.type;
             msg->size = t.size;
             const std::vector<unsigned char> good = nml::encode_message(set, *msg, coding);
-            if (!nml::decode_message(set, good.data(), good.size(), got, back.size(), coding) || nml::encode_message(set, *got, coding) != good) wrong++;
+            if (!nml::decode_message(set, good.data(), good.size(), got, back.size(), coding) ||
+                nml::encode_message(set, *got, coding) != good)
+                wrong++;
             for (int n = 0; n < 50; n++) {
                 std::vector<unsigned char> bad = good;
-                for (unsigned k = 1 + random() % 4; k > 0; k--) bad[random() % bad.size()] = static_cast<unsigned char>(random());
+                for (unsigned k = 1 + random() % 4; k > 0; k--)
+                    bad[random() % bad.size()] = static_cast<unsigned char>(random());
                 if (random() % 3 == 0) bad.resize(random() % bad.size());
-                if (!nml::decode_message(set, bad.data(), bad.size(), got, back.size(), coding)) { refused++; continue; }
+                if (!nml::decode_message(set, bad.data(), bad.size(), got, back.size(), coding)) {
+                    refused++;
+                    continue;
+                }
                 taken++;
                 const std::vector<unsigned char> again = nml::encode_message(set, *got, nml::Coding::xdr);
-                if (again.empty() || !nml::decode_message(set, again.data(), again.size(), got, back.size(), nml::Coding::xdr)) wrong++;
+                if (again.empty() ||
+                    !nml::decode_message(set, again.data(), again.size(), got, back.size(), nml::Coding::xdr))
+                    wrong++;
             }
         }
-        printf("%s: %s refused, %s taken, wrong %d\n", name, refused > 500 ? "hundreds" : "few", taken > 500 ? "hundreds" : "few", wrong);
+        printf("%s: %s refused, %s taken, wrong %d\n", name, refused > 500 ? "hundreds" : "few",
+               taken > 500 ? "hundreds" : "few", wrong);
     }
 }
 
 // Permissions, sizes, waiting, was-read marks of one value buffer and one queue.
 static void calls_give_the_documented_results() {
     Master m;
-    NML task = open_as("emcStatus", "emc"), screen = open_as("emcStatus", "xemc"), errors = open_as("emcError", "xemc"), writer = open_as("emcError", "emc");
+    NML task = open_as("emcStatus", "emc"), screen = open_as("emcStatus", "xemc"), errors = open_as("emcError", "xemc"),
+        writer = open_as("emcError", "emc");
     int r = task.read();
     printf("a writer that reads: %d %d\n", r, task.status);
     EMC_NULL null;
@@ -446,7 +502,8 @@ static void messages_as_text_and_connections() {
     Master m;
     static volatile int stop = 0;
     nml::Server server;
-    for (auto &b : nml::buffers_of(nml_file)) server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
+    for (auto &b : nml::buffers_of(nml_file))
+        server.add(b.name == "emcCommand" ? m.command : b.name == "emcStatus" ? m.status : m.error, b);
     if (!server.listen()) { printf("no port\n"); return; }
     std::thread serving([&] { server.run(&stop); });
     {
@@ -467,12 +524,15 @@ static void messages_as_text_and_connections() {
         int got = 0;
         while (task.read() > 0) got++;
         printf("task got %d\n", got);
-        printf("waited for: %d, a wrong name: %d\n", nmlWaitOpen(emc_messages(), "emcStatus", "emc", nml_file.c_str(), 0.01)->valid(),
+        printf("waited for: %d, a wrong name: %d\n",
+               nmlWaitOpen(emc_messages(), "emcStatus", "emc", nml_file.c_str(), 0.01)->valid(),
                nmlWaitOpen(emc_messages(), "nowhere", "emc", nml_file.c_str(), 0.01)->valid());
         for (NML *channel : {&task, &far})
             for (const nml::Diagnosis &d : channel->get_diag_info())
-                printf("%d %s alive %d: read %lld (%s) written %lld (%s)\n", d.cnum, d.process.c_str(), d.pid == getpid() && d.last > 0, static_cast<long long>(d.reads),
-                       d.read_bytes == d.reads * mdi.size ? "right" : "wrong", static_cast<long long>(d.writes), d.write_bytes == d.writes * mdi.size ? "right" : "wrong");
+                printf("%d %s alive %d: read %lld (%s) written %lld (%s)\n", d.cnum, d.process.c_str(),
+                       d.pid == getpid() && d.last > 0, static_cast<long long>(d.reads),
+                       d.read_bytes == d.reads * mdi.size ? "right" : "wrong", static_cast<long long>(d.writes),
+                       d.write_bytes == d.writes * mdi.size ? "right" : "wrong");
         NML status = open_as("emcStatus", "emc");
         const size_t entries = status.get_diag_info().size();
         printf("a buffer without: %zu, status %d\n", entries, status.status);
@@ -483,10 +543,18 @@ static void messages_as_text_and_connections() {
 
 int main(int argc, char **argv) {
     const std::map<std::string, void (*)()> cases = {
-        {"queue-keeps-order", queue_keeps_order}, {"error-queue-holds-25", error_queue_holds_25}, {"full-queue-refuses", full_queue_refuses},
-        {"status-is-last-value", status_is_last_value}, {"status-is-never-torn", status_is_never_torn},
-        {"killed-client-blocks-nobody", killed_client_blocks_nobody}, {"many-clients-lose-nothing", many_clients_lose_nothing},
-        {"tcp-carries-every-message", tcp_carries_every_message}, {"messages-as-text-and-connections", messages_as_text_and_connections}, {"configuration-lines", configuration_lines}, {"garbled", garbled_messages_are_refused_or_whole}, {"calls-give-the-documented-results", calls_give_the_documented_results}};
+        {"queue-keeps-order", queue_keeps_order},
+        {"error-queue-holds-25", error_queue_holds_25},
+        {"full-queue-refuses", full_queue_refuses},
+        {"status-is-last-value", status_is_last_value},
+        {"status-is-never-torn", status_is_never_torn},
+        {"killed-client-blocks-nobody", killed_client_blocks_nobody},
+        {"many-clients-lose-nothing", many_clients_lose_nothing},
+        {"tcp-carries-every-message", tcp_carries_every_message},
+        {"messages-as-text-and-connections", messages_as_text_and_connections},
+        {"configuration-lines", configuration_lines},
+        {"garbled", garbled_messages_are_refused_or_whole},
+        {"calls-give-the-documented-results", calls_give_the_documented_results}};
     auto it = argc > 1 ? cases.find(argv[1]) : cases.end();
     if (it == cases.end()) {
         for (auto &c : cases) printf("%s\n", c.first.c_str());

@@ -420,7 +420,9 @@ static void daemon_main(int listener)
     host_messages_start();
     int removed = remove_stale();
     if (removed > 0) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "Note: removed %d shared memory segments of processes that were killed\n", removed);
+        rtapi_print_msg(RTAPI_MSG_ERR,
+                        "Note: removed %d shared memory segments of processes that were killed\n",
+                        removed);
     }
     host_load(1, load);
     print_banner(backend);

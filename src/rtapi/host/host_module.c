@@ -99,7 +99,8 @@ static int store(struct module *m, const char *word, char type, void *address, i
     }
 }
 
-static int store_array(struct module *m, const char *word, const char *name, char type, void *address, int size, char *values)
+static int store_array(struct module *m, const char *word, const char *name, char type,
+                       void *address, int size, char *values)
 {
     char *value = values;
     for (int i = 0; value; i++) {
@@ -237,7 +238,9 @@ int host_load(int argc, char **argv)
     if (!m->handle) {
         say("%s: dlopen: %s\n", name, dlerror());
         if (access(path, F_OK) != 0) {
-            say("%s: this system has no such module: correct the name, load another driver, or build it (halcompile --install)\n", name);
+            say("%s: this system has no such module: correct the name, load another driver, or "
+                "build it (halcompile --install)\n",
+                name);
         }
         drop(m);
         return -1;

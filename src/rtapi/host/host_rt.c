@@ -390,7 +390,8 @@ static void on_fatal(int sig)
     signal(sig, SIG_DFL);
     say("rtapi_app: ", signal_name(sig), " - aborting\n");
     if (sig == SIGSEGV && io_errno != 0) {
-        say("rtapi_app: (this process has no I/O port privilege: it is not root, CAP_SYS_RAWIO is missing, or secure boot is on)\n",
+        say("rtapi_app: (this process has no I/O port privilege: it is not root, CAP_SYS_RAWIO is "
+            "missing, or secure boot is on)\n",
             "", "");
     }
     abort();

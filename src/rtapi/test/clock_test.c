@@ -335,7 +335,8 @@ static int threads(int count, int steps)
         pthread_join(id[i], NULL);
     }
     kerf_clock_resume();
-    printf("%ld turns, %s\n", atomic_load(&board->turns), atomic_load(&board->worst) ? "TWO RAN AT ONCE" : "one at a time");
+    printf("%ld turns, %s\n", atomic_load(&board->turns),
+           atomic_load(&board->worst) ? "TWO RAN AT ONCE" : "one at a time");
     return 0;
 }
 

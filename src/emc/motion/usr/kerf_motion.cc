@@ -80,7 +80,8 @@ const std::map<std::string, Setter> &setters()
         BYTE(probe_type), INT(probe_jog_err_inhibit), INT(probe_home_err_inhibit), REAL(orientation), INT(state),
         INT(direction), REAL(timeout), BYTE(wait_for_spindle_at_speed), INT(arcBlendOptDepth), INT(arcBlendEnable),
         INT(arcBlendFallbackEnable), INT(arcBlendGapCycles), REAL(arcBlendRampFreq), REAL(arcBlendTangentKinkRatio),
-        REAL(maxFeedScale), REAL(ext_offset_vel), REAL(ext_offset_acc), INT(probe_feed_contact), INT(probe_rapid_contact),
+        REAL(maxFeedScale), REAL(ext_offset_vel), REAL(ext_offset_acc), INT(probe_feed_contact),
+        INT(probe_rapid_contact),
         REAL(probe_filter),
     };
 #undef REAL
@@ -112,7 +113,8 @@ int send(int code, const py::kwargs &fields)
         if (name == "tag_field" || name == "tag_float") { /* {index: value} */
             for (auto item : py::cast<py::dict>(field.second)) {
                 auto n = py::cast<unsigned>(item.first);
-                if (n >= static_cast<unsigned>(name == "tag_field" ? +GM_FIELD_MAX_FIELDS : +GM_FIELD_FLOAT_MAX_FIELDS)) throw std::invalid_argument("no such field of a tag");
+                if (n >= static_cast<unsigned>(name == "tag_field" ? +GM_FIELD_MAX_FIELDS : +GM_FIELD_FLOAT_MAX_FIELDS))
+                    throw std::invalid_argument("no such field of a tag");
                 if (name == "tag_field") command.tag.fields[n] = py::cast<int>(item.second);
                 else command.tag.fields_float[n] = py::cast<float>(item.second);
             }
@@ -298,8 +300,10 @@ PYBIND11_MODULE(kerf_motion, m)
     m.def("disconnect", [] { usrmotExit(); });
     m.def("quiet", [](bool on) { usrmotSetQuiet(on); }, "do not print refused commands");
     m.def("send", &send);
-    m.def("load_comp", [](int joint, const std::string &file, int type) { return usrmotLoadComp(joint, file.c_str(), type); },
-          py::arg("joint"), py::arg("file"), py::arg("type") = 0);
+    m.def(
+        "load_comp",
+        [](int joint, const std::string &file, int type) { return usrmotLoadComp(joint, file.c_str(), type); },
+        py::arg("joint"), py::arg("file"), py::arg("type") = 0);
     m.def("status", &status);
     m.def("config", &config);
     m.def("error", &error);

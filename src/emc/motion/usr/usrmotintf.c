@@ -229,13 +229,17 @@ static int load_points(FILE *fp, const char *file, int joint, int type)
             break;
         }
         if (points > 0 && !(v[0] > before[0])) {
-            fprintf(stderr, "%s:%d: position %g is not above %g of the point before: point not used\n", file, number, v[0],
-                    before[0]);
+            fprintf(stderr,
+                    "%s:%d: position %g is not above %g of the point before: point not used\n",
+                    file, number, v[0], before[0]);
             continue;
         }
         double most = COMP_STEEP * (v[0] - before[0]);
-        if (points > 0 && !warned && (fabs(c.comp_forward - before[1]) > most || fabs(c.comp_reverse - before[2]) > most)) {
-            fprintf(stderr, "%s:%d: the correction changes by more than half of the travel since the point before: is COMP_FILE_TYPE %d right?\n",
+        if (points > 0 && !warned &&
+            (fabs(c.comp_forward - before[1]) > most || fabs(c.comp_reverse - before[2]) > most)) {
+            fprintf(stderr,
+                    "%s:%d: the correction changes by more than half of the travel since the point "
+                    "before: is COMP_FILE_TYPE %d right?\n",
                     file, number, type);
             warned = 1;
         }

@@ -176,9 +176,10 @@ void bind_motion(py::module_ &m)
         canon().SET_G92_OFFSET(pose(x, y, z, a, b, c, u, v, w));
     });
     m.def("USE_TOOL_LENGTH_OFFSET", [](const EmcPose &p) { canon().USE_TOOL_LENGTH_OFFSET(p); });
-    m.def("SET_TOOL_TABLE_ENTRY", [](int idx, int toolno, const EmcPose &p, D diameter, D front, D back, int orientation) {
-        canon().SET_TOOL_TABLE_ENTRY(idx, toolno, p, diameter, front, back, orientation);
-    });
+    m.def("SET_TOOL_TABLE_ENTRY",
+          [](int idx, int toolno, const EmcPose &p, D diameter, D front, D back, int orientation) {
+              canon().SET_TOOL_TABLE_ENTRY(idx, toolno, p, diameter, front, back, orientation);
+          });
     m.def("SET_FEED_MODE", [](int spindle, int mode) { canon().SET_FEED_MODE(spindle, mode); });
     m.def("SELECT_PLANE", [](CANON_PLANE p) { canon().SELECT_PLANE(p); });
     m.def("USE_LENGTH_UNITS", [](CANON_UNITS u) { canon().USE_LENGTH_UNITS(u); });
@@ -222,7 +223,8 @@ void bind_queued(py::module_ &m)
     m.def("enqueue_FLOOD_ON", [] { enqueue_coolant(setup(), false, true); });
     m.def("enqueue_FLOOD_OFF", [] { enqueue_coolant(setup(), false, false); });
     m.def("enqueue_START_SPINDLE_CLOCKWISE", [](int s) { enqueue_spindle_start(setup(), s, CANON_CLOCKWISE); });
-    m.def("enqueue_START_SPINDLE_COUNTERCLOCKWISE", [](int s) { enqueue_spindle_start(setup(), s, CANON_COUNTERCLOCKWISE); });
+    m.def("enqueue_START_SPINDLE_COUNTERCLOCKWISE",
+          [](int s) { enqueue_spindle_start(setup(), s, CANON_COUNTERCLOCKWISE); });
     m.def("enqueue_STOP_SPINDLE_TURNING", [](int s) { enqueue_spindle_stop(setup(), s); });
     m.def("enqueue_SET_SPINDLE_MODE", [](int s, double mode) { enqueue_spindle_mode(setup(), s, mode); });
     m.def("enqueue_SET_SPINDLE_SPEED", [](int s, double speed) { enqueue_spindle_speed(setup(), s, speed); });
@@ -281,7 +283,8 @@ void bind_canon(py::module_ &m)
     for (const Plain &f : plain) m.def(f.name, [call = f.call] { (canon().*call)(); });
     for (const OneInt &f : one_int) m.def(f.name, [call = f.call](int i) { (canon().*call)(i); });
     for (const OneReal &f : one_real) m.def(f.name, [call = f.call](double v) { (canon().*call)(v); });
-    for (const OneText &f : one_text) m.def(f.name, [call = f.call](const std::string &t) { (canon().*call)(t.c_str()); });
+    for (const OneText &f : one_text)
+        m.def(f.name, [call = f.call](const std::string &t) { (canon().*call)(t.c_str()); });
     bind_motion(m);
     bind_queued(m);
     bind_queries(m);
@@ -294,7 +297,8 @@ void install_modules()
     if (modules.contains("interpreter") && py::hasattr(modules["interpreter"], "InterpReturn")) return;
     // Definitions that live as long as Python does.
     static py::module_::module_def interpreter_def, canon_def;
-    py::module_ interpreter = py::module_::create_extension_module("interpreter", "The running interpreter.", &interpreter_def);
+    py::module_ interpreter =
+        py::module_::create_extension_module("interpreter", "The running interpreter.", &interpreter_def);
     bind_interpreter(interpreter);
     modules["interpreter"] = interpreter;
     py::module_ emccanon = py::module_::create_extension_module("emccanon", "Canonical calls.", &canon_def);

@@ -67,7 +67,9 @@ struct RemapRef {
     const Remap *remap;
 };
 
-py::object text_or_none(const std::string &text) { return text.empty() ? py::object(py::none()) : py::object(py::str(text)); }
+py::object text_or_none(const std::string &text) {
+    return text.empty() ? py::object(py::none()) : py::object(py::str(text));
+}
 
 void bind_block(py::module_ &m)
 {
@@ -216,7 +218,8 @@ void bind_context(py::module_ &m)
     });
     c.def_property_readonly("named_params", [](const ContextRef &x) {
         py::dict d;
-        for (const auto &e : x.get().locals) d[py::str(e.name)] = ParameterValueRef{int(e.value.read_only), e.value.value};
+        for (const auto &e : x.get().locals)
+            d[py::str(e.name)] = ParameterValueRef{int(e.value.read_only), e.value.value};
         return d;
     });
 }
@@ -249,7 +252,8 @@ void bind_params(py::module_ &m)
         if (PyLong_Check(key.ptr())) {
             const long i = key.cast<long>();
             if (i < 0 || i > MAX_PARAMETER)
-                throw std::runtime_error("params subscript out of range : " + std::to_string(i) + " - must be between 0 and 5602");
+                throw std::runtime_error("params subscript out of range : " + std::to_string(i) +
+                                         " - must be between 0 and 5602");
             return i == 0 ? s.parameters[0] : parameter_now(s, int(i));
         }
         if (!PyUnicode_Check(key.ptr())) throw std::runtime_error("params subscript type must be integer or string");
@@ -263,7 +267,8 @@ void bind_params(py::module_ &m)
         if (PyLong_Check(key.ptr())) {
             const long i = key.cast<long>();
             if (i < 0 || i > MAX_PARAMETER)
-                throw std::runtime_error("params subscript out of range : " + std::to_string(i) + " - must be between 0 and 5602");
+                throw std::runtime_error("params subscript out of range : " + std::to_string(i) +
+                                         " - must be between 0 and 5602");
             s.parameters[size_t(i)] = value;
             return;
         }
@@ -321,9 +326,11 @@ void bind_pose(py::module_ &m)
     c.def("zero", [](CANON_TOOL_TABLE &e) { e = tooldata_entry_init(); });
     c.def("__str__", [](const CANON_TOOL_TABLE &e) {
         char text[512];
-        snprintf(text, sizeof text, "Tool(T%d D%.4f I%.4f J%.4f Q%d offset: x=%.4f y=%.4f z=%.4f a=%.4f b=%.4f c=%.4f u=%.4f v=%.4f w=%.4f)",
-                 e.toolno, e.diameter, e.frontangle, e.backangle, e.orientation, e.offset.tran.x, e.offset.tran.y,
-                 e.offset.tran.z, e.offset.a, e.offset.b, e.offset.c, e.offset.u, e.offset.v, e.offset.w);
+        snprintf(
+            text, sizeof text,
+            "Tool(T%d D%.4f I%.4f J%.4f Q%d offset: x=%.4f y=%.4f z=%.4f a=%.4f b=%.4f c=%.4f u=%.4f v=%.4f w=%.4f)",
+            e.toolno, e.diameter, e.frontangle, e.backangle, e.orientation, e.offset.tran.x, e.offset.tran.y,
+            e.offset.tran.z, e.offset.a, e.offset.b, e.offset.c, e.offset.u, e.offset.v, e.offset.w);
         return std::string(text);
     });
 }
@@ -664,7 +671,8 @@ SPINDLE_MODE = modes("SPINDLE_MODE", "CONSTANT_RPM", "CONSTANT_SURFACE")
         },
         py::return_value_policy::reference);
     bind_self(m);
-    for (const char *same : {"ActiveMcodesArray", "GmodesArray", "MmodesArray"}) m.attr(same) = m.attr("ActiveGcodesArray");
+    for (const char *same : {"ActiveMcodesArray", "GmodesArray", "MmodesArray"})
+        m.attr(same) = m.attr("ActiveGcodesArray");
     for (const char *same : {"SpindleSpeedArray", "ActiveSettingsArray", "SubroutineParamsArray"})
         m.attr(same) = m.attr("ParametersArray");
     m.attr("RemapMap") = py::type::of(py::dict());

@@ -300,7 +300,8 @@ class Link final : public PythonLink
             usable = true;
         } catch (py::error_already_set &e) {
             usable = false;
-            fprintf(stderr, "initialize: module '%s' init failed: \n%s", toplevel_path.c_str(), traceback_of(e).c_str());
+            fprintf(stderr, "initialize: module '%s' init failed: \n%s", toplevel_path.c_str(),
+                    traceback_of(e).c_str());
         }
         return usable;
     }

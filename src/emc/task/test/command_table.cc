@@ -76,7 +76,8 @@ struct Tester {
     std::string messages() {
         std::string all;
         NMLTYPE t;
-        while ((t = errors.read()) > 0) all += std::string(t == EMC_OPERATOR_ERROR_TYPE ? errors.get<EMC_OPERATOR_ERROR>()->error : "?") + "\n";
+        while ((t = errors.read()) > 0)
+            all += std::string(t == EMC_OPERATOR_ERROR_TYPE ? errors.get<EMC_OPERATOR_ERROR>()->error : "?") + "\n";
         return all;
     }
 
@@ -90,7 +91,8 @@ struct Tester {
     // Teleop needs homed joints; unhomed the machine stays in joint mode.
     bool enter(const Standing &to, bool homed) {
         plain<EMC_TASK_ABORT>();
-        until([&] { return stat.task.interpState == EMC_TASK_INTERP_IDLE && stat.task.execState == EMC_TASK_EXEC_DONE; });
+        until(
+            [&] { return stat.task.interpState == EMC_TASK_INTERP_IDLE && stat.task.execState == EMC_TASK_EXEC_DONE; });
         state(EMC_TASK_STATE_ESTOP_RESET);
         state(EMC_TASK_STATE_ON);
         if (!until([&] { return stat.task.state == ON; })) return false;
@@ -120,7 +122,9 @@ struct Tester {
                 give(execute);
             }
             const int want = to.column == 5 ? EMC_TASK_INTERP_WAITING : EMC_TASK_INTERP_READING;
-            good = until([&] { return stat.task.interpState == want && stat.task.execState == EMC_TASK_EXEC_WAITING_FOR_DELAY; });
+            good = until([&] {
+                return stat.task.interpState == want && stat.task.execState == EMC_TASK_EXEC_WAITING_FOR_DELAY;
+            });
         }
         if (to.pause) {
             plain<EMC_TASK_PLAN_PAUSE>();
@@ -144,7 +148,8 @@ std::string refusal(NMLTYPE type, int column) {
 // y taken, n refused as documented, ? refused otherwise; ! refused but the status is not ERROR.
 std::string answer(Tester &t, const nml::MessageType &type, const Standing &to, bool homed) {
     if (!t.enter(to, homed)) {
-        printf("can't get into %s (%s): state %d mode %d interpreter %d\n", to.name, homed ? "homed" : "not homed", t.stat.task.state, t.stat.task.mode, t.stat.task.interpState);
+        printf("can't get into %s (%s): state %d mode %d interpreter %d\n", to.name, homed ? "homed" : "not homed",
+               t.stat.task.state, t.stat.task.mode, t.stat.task.interpState);
         exit(1);
     }
     std::vector<unsigned char> raw(static_cast<size_t>(type.size));
@@ -158,7 +163,9 @@ std::string answer(Tester &t, const nml::MessageType &type, const Standing &to, 
     t.until([&] { return t.stat.echo_serial_number >= t.client.serial(); });
     std::string said = t.messages(), text = refusal(type.type, to.column);
     bool refused = said.find(text + "\n") != std::string::npos;
-    if (!refused && (said.find("can't do that") != std::string::npos || said.find("cannot be executed") != std::string::npos)) return "?";
+    if (!refused &&
+        (said.find("can't do that") != std::string::npos || said.find("cannot be executed") != std::string::npos))
+        return "?";
     return refused && t.stat.status != RCS_ERROR ? "n!" : refused ? "n" : "y";
 }
 

@@ -62,7 +62,8 @@ static void collinear_pieces_run_as_one_line(void)
     for (int k = 0; k < 2; k++) {
         int pieces = k ? 1000 : 1;
         mill(500, 1000);
-        for (int i = 1; i <= pieces; i++) go(100.0 * i / pieces, 40.0 * i / pieces, 0, 200, EMCMOT_TERM_COND_BLEND, 0.01);
+        for (int i = 1; i <= pieces; i++)
+            go(100.0 * i / pieces, 40.0 * i / pieces, 0, 200, EMCMOT_TERM_COND_BLEND, 0.01);
         n[k] = bench_run(&b, 4, 100000); /* one a cycle would limit the speed to 0.1 mm a cycle */
         limits_kept();
         bench_free(&b);
@@ -282,7 +283,8 @@ static void a_feed_waits_until_spindles_are_at_speed(void)
     for (int i = 0; i < 100; i++) bench_cycle(&b);
     CHECK(b.p[0][0] == 0, "moved to %g", b.p[0][0]);
     CHECK(b.tp.spindle.waiting_for_atspeed == 7, "waits for %d", b.tp.spindle.waiting_for_atspeed);
-    CHECK(tpGetExecId(&b.tp) == 7 && tpQueueDepth(&b.tp) == 1, "id %d depth %d", tpGetExecId(&b.tp), tpQueueDepth(&b.tp));
+    CHECK(tpGetExecId(&b.tp) == 7 && tpQueueDepth(&b.tp) == 1, "id %d depth %d", tpGetExecId(&b.tp),
+          tpQueueDepth(&b.tp));
     b.status.spindle_status[0].at_speed = 1;
     finish(1000);
     CHECK(b.tp.spindle.waiting_for_atspeed == -1, "still waits");
@@ -505,7 +507,8 @@ static void a_rigid_tap_stays_on_the_thread_through_both_reversals(void)
         bench_cycle(&b);
         double z = b.p[0][2];
         deepest = fmin(deepest, z);
-        if (b.status.spindle_status[0].speed != last_command) reversals++, last_command = b.status.spindle_status[0].speed;
+        if (b.status.spindle_status[0].speed != last_command)
+            reversals++, last_command = b.status.spindle_status[0].speed;
         if (z < -3 && b.p[0][0] == 0) {
             double e = -z - upr * (s.total + 2 * s.speed * b.dt);
             if (isnan(phase)) phase = e;

@@ -312,7 +312,8 @@ int bench_send(struct bench *b)
     if (m->arc) {
         PmCartesian c = { m->center[0], m->center[1], m->center[2] };
         PmCartesian n = { m->normal[0], m->normal[1], m->normal[2] };
-        r = tpAddCircle(&b->tp, pose_of(m->end), c, n, m->turn, m->canon, m->feed, m->vmax, m->acc, m->jerk, 0xff, 0, tag);
+        r = tpAddCircle(&b->tp, pose_of(m->end), c, n, m->turn, m->canon, m->feed, m->vmax, m->acc,
+                        m->jerk, 0xff, 0, tag);
     } else {
         r = tpAddLine(&b->tp, pose_of(m->end), m->canon, m->feed, m->vmax, m->acc, m->jerk, 0xff, 0, -1, tag);
     }
@@ -452,7 +453,8 @@ double bench_distance(struct bench *b, const double p[AXES], double *tol)
 }
 
 /* Differences of the last positions against limits; noise: rounding of a position, in units of its last bit. */
-static void check_limits(struct bench *b, int row, const double p[4], double lim_v, double lim_a, double lim_j, double rounding)
+static void check_limits(struct bench *b, int row, const double p[4], double lim_v, double lim_a,
+                         double lim_j, double rounding)
 {
     double noise = 4e-16 * (fabs(p[0]) + 1) * rounding, dt = b->dt;
 
@@ -469,7 +471,8 @@ static void check_limits(struct bench *b, int row, const double p[4], double lim
     if (b->have < 4 || !b->jerk_on || lim_j <= 0) return;
     double j = (fabs(p[0] - 3 * p[1] + 3 * p[2] - p[3]) - 8 * noise) / (dt * dt * dt) / lim_j;
     if (bench_verbose && j > 1.001)
-        fprintf(stderr, "cycle %llu: row %d jerk ratio %g, id %d, position %.9g\n", (unsigned long long)b->cycles, row, j, b->status.id, p[0]);
+        fprintf(stderr, "cycle %llu: row %d jerk ratio %g, id %d, position %.9g\n",
+                (unsigned long long)b->cycles, row, j, b->status.id, p[0]);
     if (j > b->worst_j) b->worst_j = j, b->worst_j_at = b->cycles, b->worst_j_axis = row;
 }
 
@@ -513,11 +516,16 @@ void bench_cycle(struct bench *b)
             if (bench_verbose && ratio > 1.001) {
                 const struct prog *m = &b->prog[b->near];
                 const struct prog *e = &b->prog[b->status.id > 0 ? b->status.id - 1 : 0];
-                fprintf(stderr, "executing: %s radius %g angle %g len %g spiral %g rise %g normal %g %g %g turn %d: %g off\n", e->arc ? "arc" : "line",
-                        e->radius, e->angle, e->len, e->spiral, e->rise, e->normal[0], e->normal[1], e->normal[2], e->turn, dist_to(e, q));
-                fprintf(stderr, "cycle %llu: %g off (tolerance %g), move %d (id %d): %s term %d tol %g len %g radius %g angle %g\n",
-                        (unsigned long long)b->cycles, off, tol, b->near, b->status.id, m->arc ? "arc" : "line", m->term,
-                        m->tol, m->len, m->radius, m->angle);
+                fprintf(stderr,
+                        "executing: %s radius %g angle %g len %g spiral %g rise %g normal %g %g %g "
+                        "turn %d: %g off\n",
+                        e->arc ? "arc" : "line", e->radius, e->angle, e->len, e->spiral, e->rise,
+                        e->normal[0], e->normal[1], e->normal[2], e->turn, dist_to(e, q));
+                fprintf(stderr,
+                        "cycle %llu: %g off (tolerance %g), move %d (id %d): %s term %d tol %g len "
+                        "%g radius %g angle %g\n",
+                        (unsigned long long)b->cycles, off, tol, b->near, b->status.id,
+                        m->arc ? "arc" : "line", m->term, m->tol, m->len, m->radius, m->angle);
             }
         }
     }

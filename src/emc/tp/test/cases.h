@@ -52,8 +52,10 @@ static inline void mill(double v, double a)
 static inline void limits_kept(void)
 {
     CHECK(b.worst_v <= 1.0001, "velocity ratio %g", b.worst_v);
-    CHECK(b.worst_a <= 1.0001, "acceleration ratio %g axis %d cycle %llu", b.worst_a, b.worst_a_axis, (unsigned long long)b.worst_a_at);
-    CHECK(b.worst_j <= 1.001, "jerk ratio %g axis %d cycle %llu", b.worst_j, b.worst_j_axis, (unsigned long long)b.worst_j_at);
+    CHECK(b.worst_a <= 1.0001, "acceleration ratio %g axis %d cycle %llu", b.worst_a,
+          b.worst_a_axis, (unsigned long long)b.worst_a_at);
+    CHECK(b.worst_j <= 1.001, "jerk ratio %g axis %d cycle %llu", b.worst_j, b.worst_j_axis,
+          (unsigned long long)b.worst_j_at);
     CHECK(b.worst_dev <= 1.0001, "deviation ratio %g (%g)", b.worst_dev, b.worst_off);
 }
 

@@ -25,7 +25,8 @@ static int corexy(const double p[AXES], double *q)
 static int delta(const double p[AXES], double *q)
 {
     for (int i = 0; i < 3; i++) {
-        double t = i * 2 * M_PI / 3, x = 130 * cos(t) - p[0], y = 130 * sin(t) - p[1], h = 269.0 * 269.0 - x * x - y * y;
+        double t = i * 2 * M_PI / 3, x = 130 * cos(t) - p[0], y = 130 * sin(t) - p[1],
+               h = 269.0 * 269.0 - x * x - y * y;
         if (h < 0) return -1;
         q[i] = p[2] + sqrt(h);
     }
@@ -35,7 +36,8 @@ static int delta(const double p[AXES], double *q)
 /* Table that tilts (A) and turns (C); the pose is the tool's in the work piece. */
 static int five_axis(const double p[AXES], double *q)
 {
-    double a = p[3] * M_PI / 180, c = p[5] * M_PI / 180, x = p[0] * cos(c) - p[1] * sin(c), y = p[0] * sin(c) + p[1] * cos(c);
+    double a = p[3] * M_PI / 180, c = p[5] * M_PI / 180, x = p[0] * cos(c) - p[1] * sin(c),
+           y = p[0] * sin(c) + p[1] * cos(c);
     double z = p[2] + 20;
     q[0] = x, q[1] = y * cos(a) - z * sin(a), q[2] = y * sin(a) + z * cos(a) - 20, q[3] = p[3], q[4] = p[5];
     return 0;

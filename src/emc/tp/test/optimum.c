@@ -159,7 +159,8 @@ static void run(struct bench *b, const char *name, int per_cycle)
             enum path_result r = m->arc ? path_arc(&move.prim, m->start, m->end, m->center, m->normal, m->turn)
                                         : path_line(&move.prim, m->start, m->end);
             if (r != PATH_OK) continue;
-            move.rest_before = b->next > 1 && (m->canon == EMC_MOTION_TYPE_TRAVERSE) != (m[-1].canon == EMC_MOTION_TYPE_TRAVERSE);
+            move.rest_before = b->next > 1 && (m->canon == EMC_MOTION_TYPE_TRAVERSE) !=
+                                                  (m[-1].canon == EMC_MOTION_TYPE_TRAVERSE);
             traj_append(&tj, &move);
         }
         if (traj_waiting(&tj) >= 0) {
@@ -182,8 +183,10 @@ static void run(struct bench *b, const char *name, int per_cycle)
         if (b->next >= b->n && traj_done(&tj)) break;
     }
     double bound = lower_bound(), t = cycles * dt;
-    printf("%-26s %6d moves %9.4f s, bound %9.4f s, ratio %.4f; acceleration %.5f jerk %.4f; %5.2f us/cycle, worst %6.1f; rests %llu forced %llu\n",
-           name, b->n, t, bound, t / bound, worst_a / acc, jerk > 0 ? worst_j / jerk : 0, busy / cycles, most, (unsigned long long)tj.n_rest, (unsigned long long)tj.n_forced);
+    printf("%-26s %6d moves %9.4f s, bound %9.4f s, ratio %.4f; acceleration %.5f jerk %.4f; %5.2f "
+           "us/cycle, worst %6.1f; rests %llu forced %llu\n",
+           name, b->n, t, bound, t / bound, worst_a / acc, jerk > 0 ? worst_j / jerk : 0,
+           busy / cycles, most, (unsigned long long)tj.n_rest, (unsigned long long)tj.n_forced);
     fflush(stdout);
 }
 
@@ -220,7 +223,8 @@ static int read_canon(struct bench *b, const char *path)
         } else if ((c = strstr(line, "STRAIGHT_TRAVERSE(")) && sscanf(c + 18, "%lf, %lf, %lf", p, p + 1, p + 2) == 3) {
             bench_line(b, p, EMC_MOTION_TYPE_TRAVERSE, 0, term, term == EMCMOT_TERM_COND_BLEND ? tol : 0);
         } else if ((c = strstr(line, "STRAIGHT_FEED(")) && sscanf(c + 14, "%lf, %lf, %lf", p, p + 1, p + 2) == 3) {
-            bench_line(b, p, EMC_MOTION_TYPE_FEED, fmin(feed, feed_limit), term, term == EMCMOT_TERM_COND_BLEND ? tol : 0);
+            bench_line(b, p, EMC_MOTION_TYPE_FEED, fmin(feed, feed_limit), term,
+                       term == EMCMOT_TERM_COND_BLEND ? tol : 0);
         } else if ((c = strstr(line, "ARC_FEED(")) &&
                    sscanf(c + 9, "%lf, %lf, %lf, %lf, %d, %lf", &e1, &e2, &a1, &a2, &rot, &axis) == 6) {
             int i1 = (plane + 1) % 3, i2 = (plane + 2) % 3;

@@ -158,8 +158,13 @@ static void random_program(struct bench *b, uint64_t *r)
     int groups = 1 + rnd_int(r, 5);
     for (int g = 0; g < groups; g++) {
         double feed = random_feed(r), tol = rnd_int(r, 4) ? rnd_log(r, 1e-4, 1) : 0, scale = rnd_log(r, 0.05, 50);
-        int term = rnd_int(r, 6) ? EMCMOT_TERM_COND_BLEND : rnd_int(r, 2) ? EMCMOT_TERM_COND_STOP : EMCMOT_TERM_COND_EXACT;
-        int axes = rnd_int(r, 3) ? 1 : rnd_int(r, 2) ? 8 : 1 + rnd_int(r, 7), kind = rnd_int(r, 6), n = 1 + rnd_int(r, 15);
+        int term = rnd_int(r, 6)   ? EMCMOT_TERM_COND_BLEND
+                   : rnd_int(r, 2) ? EMCMOT_TERM_COND_STOP
+                                   : EMCMOT_TERM_COND_EXACT;
+        int axes = rnd_int(r, 3)   ? 1
+                   : rnd_int(r, 2) ? 8
+                                   : 1 + rnd_int(r, 7),
+            kind = rnd_int(r, 6), n = 1 + rnd_int(r, 15);
         if (term != EMCMOT_TERM_COND_BLEND) tol = 0;
         if (kins) axes = axes & 8 ? kins->axes & 2 ? 3 : 1 : axes & kins->axes;
         if (!axes) axes = 1;
@@ -251,7 +256,9 @@ static int run_seed(uint64_t seed, int jerk, int verbose, struct totals *sum)
     (void)stepping;
     EmcPose pose;
     tpGetPos(&b.tp, &pose);
-    double now[AXES] = { pose.tran.x, pose.tran.y, pose.tran.z, pose.a, pose.b, pose.c, pose.u, pose.v, pose.w }, end_off = 0;
+    double now[AXES] = {pose.tran.x, pose.tran.y, pose.tran.z, pose.a, pose.b,
+                        pose.c,      pose.u,      pose.v,      pose.w},
+           end_off = 0;
     for (int i = 0; i < AXES; i++) end_off = fmax(end_off, fabs(now[i] - b.at[i]));
     const char *why = NULL;
     if (!tpIsDone(&b.tp) || b.next < b.n) why = "not finished";
@@ -262,11 +269,13 @@ static int run_seed(uint64_t seed, int jerk, int verbose, struct totals *sum)
     else if (b.worst_dev > 1.001) why = "deviation";
     if (why) failed = 1;
     if (why || verbose)
-        printf("seed %llu: %s; v %.5f (axis %d cycle %llu) a %.5f (axis %d cycle %llu) j %.5f (axis %d cycle %llu) dev %.4f (%.6f, cycle %llu) end %.2g; %d moves %llu cycles\n",
-               (unsigned long long)seed, why ? why : "ok", b.worst_v, b.worst_v_axis, (unsigned long long)b.worst_v_at,
-               b.worst_a, b.worst_a_axis, (unsigned long long)b.worst_a_at, b.worst_j, b.worst_j_axis,
-               (unsigned long long)b.worst_j_at, b.worst_dev, b.worst_off, (unsigned long long)b.worst_dev_at, end_off,
-               b.n, (unsigned long long)b.cycles);
+        printf("seed %llu: %s; v %.5f (axis %d cycle %llu) a %.5f (axis %d cycle %llu) j %.5f "
+               "(axis %d cycle %llu) dev %.4f (%.6f, cycle %llu) end %.2g; %d moves %llu cycles\n",
+               (unsigned long long)seed, why ? why : "ok", b.worst_v, b.worst_v_axis,
+               (unsigned long long)b.worst_v_at, b.worst_a, b.worst_a_axis,
+               (unsigned long long)b.worst_a_at, b.worst_j, b.worst_j_axis,
+               (unsigned long long)b.worst_j_at, b.worst_dev, b.worst_off,
+               (unsigned long long)b.worst_dev_at, end_off, b.n, (unsigned long long)b.cycles);
     sum->cycles += b.cycles;
     sum->moves += moves;
     sum->programs++;
@@ -302,8 +311,9 @@ int main(int argc, char **argv)
         }
     }
     for (uint64_t s = first; s < first + count; s++) failed += run_seed(s, jerk, verbose, &sum);
-    printf("%llu programs, %llu moves, %llu cycles; worst ratios: velocity %.6f acceleration %.6f jerk %.6f deviation %.4f; %d failed\n",
-           (unsigned long long)sum.programs, (unsigned long long)sum.moves, (unsigned long long)sum.cycles, sum.v, sum.a,
-           sum.j, sum.dev, failed);
+    printf("%llu programs, %llu moves, %llu cycles; worst ratios: velocity %.6f acceleration %.6f "
+           "jerk %.6f deviation %.4f; %d failed\n",
+           (unsigned long long)sum.programs, (unsigned long long)sum.moves,
+           (unsigned long long)sum.cycles, sum.v, sum.a, sum.j, sum.dev, failed);
     return failed != 0;
 }

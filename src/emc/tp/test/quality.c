@@ -29,7 +29,9 @@ static void fp_032_a_looser_tolerance_is_never_harsher(void)
             wave_of_arcs(tol);
             uint64_t n = bench_run(&b, 2, 200000);
             limits_kept();
-            CHECK(before == 0 || n <= before * 1.005 + 2, "P %g: %llu cycles, with a tenth of it %llu", tol, (unsigned long long)n, (unsigned long long)before);
+            CHECK(before == 0 || n <= before * 1.005 + 2,
+                  "P %g: %llu cycles, with a tenth of it %llu", tol, (unsigned long long)n,
+                  (unsigned long long)before);
             before = n;
             bench_free(&b);
         }
@@ -191,7 +193,8 @@ static void fp_042_reverse_and_forward_again_gives_the_same_speeds(void)
         limits_kept();
         bench_free(&b);
     }
-    CHECK(n[1] <= n[0] + 2 && n[0] <= n[1] + 2, "%llu cycles, after reverse %llu", (unsigned long long)n[0], (unsigned long long)n[1]);
+    CHECK(n[1] <= n[0] + 2 && n[0] <= n[1] + 2, "%llu cycles, after reverse %llu",
+          (unsigned long long)n[0], (unsigned long long)n[1]);
 }
 
 static void fp_042_moves_that_come_one_by_one_run_as_fast_as_all_at_once(void)
@@ -210,7 +213,8 @@ static void fp_042_moves_that_come_one_by_one_run_as_fast_as_all_at_once(void)
             limits_kept();
             bench_free(&b);
         }
-        CHECK(n[0] <= n[1] * 1.02 + 20, "%llu cycles, %llu all at once", (unsigned long long)n[0], (unsigned long long)n[1]);
+        CHECK(n[0] <= n[1] * 1.02 + 20, "%llu cycles, %llu all at once", (unsigned long long)n[0],
+              (unsigned long long)n[1]);
     }
 }
 
@@ -309,7 +313,8 @@ static void lone_moves_with_jerk_limits_take_little_more_than_the_optimum(void)
 
 static void moves_that_end_at_rest_take_as_long_together_as_alone(void)
 {
-    static const double corner[][2] = { { 3, 7 }, { 6, 3 }, { 9, 10 }, { 2, 6 }, { 4, 1 }, { 20, 3 }, { 20.5, 9 }, { 1, 1 } };
+    static const double corner[][2] = {{3, 7}, {6, 3},  {9, 10},   {2, 6},
+                                       {4, 1}, {20, 3}, {20.5, 9}, {1, 1}};
     double jerk[] = { 0, 20000, 100000, 200000 };
     int moves = sizeof corner / sizeof *corner;
 
@@ -318,7 +323,8 @@ static void moves_that_end_at_rest_take_as_long_together_as_alone(void)
         for (int i = 0; i < moves; i++) {
             mill_with(80, 800, jerk[k]);
             memset(b.at, 0, sizeof b.at);
-            go(corner[i][0] - (i ? corner[i - 1][0] : 0), corner[i][1] - (i ? corner[i - 1][1] : 0), 0, 50, EMCMOT_TERM_COND_EXACT, 0);
+            go(corner[i][0] - (i ? corner[i - 1][0] : 0), corner[i][1] - (i ? corner[i - 1][1] : 0),
+               0, 50, EMCMOT_TERM_COND_EXACT, 0);
             send_all();
             alone += finish(100000);
             bench_free(&b);
@@ -327,7 +333,8 @@ static void moves_that_end_at_rest_take_as_long_together_as_alone(void)
         for (int i = 0; i < moves; i++) go(corner[i][0], corner[i][1], 0, 50, EMCMOT_TERM_COND_EXACT, 0);
         together = bench_run(&b, 1, 100000);
         limits_kept();
-        CHECK(together <= alone + 5u * moves, "jerk %g: %llu cycles together, %llu alone", jerk[k], (unsigned long long)together, (unsigned long long)alone);
+        CHECK(together <= alone + 5u * moves, "jerk %g: %llu cycles together, %llu alone", jerk[k],
+              (unsigned long long)together, (unsigned long long)alone);
         bench_free(&b);
     }
 }

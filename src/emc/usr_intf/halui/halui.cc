@@ -221,8 +221,8 @@ private:
     void commands();
     void show();
     void jogs();
-    void jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints, std::vector<Bit> &select,
-                   std::vector<hal_bit_t **> &lamps, const std::vector<int> &present);
+    void jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints,
+                   std::vector<Bit> &select, std::vector<hal_bit_t **> &lamps, const std::vector<int> &present);
     void mdi();
     void release();
     bool refresh() {
@@ -288,8 +288,10 @@ private:
     std::vector<std::string> mdi_commands_;
 
     // inputs
-    Bit on_, off_, estop_activate_, estop_reset_, manual_, auto_, mdi_mode_, teleop_, joint_mode_, mist_on_, mist_off_, flood_on_, flood_off_;
-    Bit run_, pause_, resume_, step_, program_stop_, abort_, optional_on_, optional_off_, delete_on_, delete_off_, home_all_;
+    Bit on_, off_, estop_activate_, estop_reset_, manual_, auto_, mdi_mode_, teleop_, joint_mode_, mist_on_, mist_off_,
+        flood_on_, flood_off_;
+    Bit run_, pause_, resume_, step_, program_stop_, abort_, optional_on_, optional_off_, delete_on_, delete_off_,
+        home_all_;
     Override max_velocity_, feed_, rapid_;
     struct Spindle {
         Override override;
@@ -305,7 +307,8 @@ private:
 
     // outputs
     hal_float_t **units_per_mm_ = nullptr;
-    hal_bit_t **is_on_, **is_estop_, **is_manual_, **is_auto_, **is_mdi_, **is_teleop_, **is_joint_, **is_mist_, **is_flood_;
+    hal_bit_t **is_on_, **is_estop_, **is_manual_, **is_auto_, **is_mdi_, **is_teleop_, **is_joint_, **is_mist_,
+        **is_flood_;
     hal_bit_t **is_idle_, **is_running_, **is_paused_, **optional_is_on_, **delete_is_on_, **mdi_running_ = nullptr;
     std::vector<JointLamps> joint_lamps_;
     JointLamps selected_lamps_;
@@ -321,7 +324,9 @@ bool Halui::read_ini(const std::string &file) {
     if (!ini.open(file)) return false;
     set_rcs_print(ini);
     nml_file_ = ini.findStringV("NML_FILE", "EMC", "");
-    auto positive = [&](const char *name, double *v) { if (auto r = ini.findReal(name, "DISPLAY"); r && *r > 0) *v = *r; };
+    auto positive = [&](const char *name, double *v) {
+        if (auto r = ini.findReal(name, "DISPLAY"); r && *r > 0) *v = *r;
+    };
     positive("MAX_FEED_OVERRIDE", &max_feed_override_);
     positive("MIN_SPINDLE_OVERRIDE", &min_spindle_override_);
     positive("MAX_SPINDLE_OVERRIDE", &max_spindle_override_);
@@ -377,7 +382,8 @@ bool Halui::create() {
     if (!mdi_commands_.empty()) mdi_running_ = p.out("halui.halui-mdi-is-running");
     tool_number_ = p.out_u32("halui.tool.number");
     tool_diameter_ = p.out_real("halui.tool.diameter");
-    for (int i = 0; i < EMCMOT_MAX_AXIS; i++) tool_offset_.push_back({p.out_real(std::string("halui.tool.length_offset.") + AXES[i])});
+    for (int i = 0; i < EMCMOT_MAX_AXIS; i++)
+        tool_offset_.push_back({p.out_real(std::string("halui.tool.length_offset.") + AXES[i])});
 
     on_ = p.in_bit("halui.machine.on");
     off_ = p.in_bit("halui.machine.off");
@@ -508,12 +514,21 @@ void Halui::commands() {
     if (delete_off_.rose()) block_delete(false);
 
     double v;
-    if (max_velocity_.wanted(stat_.motion.traj.maxVelocity, 0, 1.0, &v)) { EMC_TRAJ_SET_MAX_VELOCITY m; m.velocity = v; give(m); }
-    if (feed_.wanted(stat_.motion.traj.scale, 0, max_feed_override_, &v)) { EMC_TRAJ_SET_SCALE m; m.scale = v; give(m); }
+    if (max_velocity_.wanted(stat_.motion.traj.maxVelocity, 0, 1.0, &v)) {
+        EMC_TRAJ_SET_MAX_VELOCITY m;
+        m.velocity = v;
+        give(m);
+    }
+    if (feed_.wanted(stat_.motion.traj.scale, 0, max_feed_override_, &v)) {
+        EMC_TRAJ_SET_SCALE m;
+        m.scale = v;
+        give(m);
+    }
     if (rapid_.wanted(stat_.motion.traj.rapid_scale, 0, 1.0, &v)) { EMC_TRAJ_SET_RAPID_SCALE m; m.scale = v; give(m); }
     for (int n = 0; n < spindles_; n++) {
         Spindle &s = spindle_[static_cast<size_t>(n)];
-        if (s.override.wanted(stat_.motion.spindle[n].spindle_scale, min_spindle_override_, max_spindle_override_, &v)) {
+        if (s.override.wanted(stat_.motion.spindle[n].spindle_scale, min_spindle_override_, max_spindle_override_,
+                              &v)) {
             EMC_TRAJ_SET_SPINDLE_SCALE m;
             m.spindle = n;
             m.scale = v;
@@ -524,8 +539,20 @@ void Halui::commands() {
         if (s.reverse.rose()) spindle_start(n, -1);
         if (s.stop.rose()) { EMC_SPINDLE_OFF m; m.spindle = n; give(m); }
         auto constant = [&] { EMC_SPINDLE_CONSTANT m; m.spindle = n; give(m); };
-        if (int e = s.increase.edge()) { if (e > 0) { EMC_SPINDLE_INCREASE m; m.spindle = n; give(m); } else constant(); }
-        if (int e = s.decrease.edge()) { if (e > 0) { EMC_SPINDLE_DECREASE m; m.spindle = n; give(m); } else constant(); }
+        if (int e = s.increase.edge()) {
+            if (e > 0) {
+                EMC_SPINDLE_INCREASE m;
+                m.spindle = n;
+                give(m);
+            } else constant();
+        }
+        if (int e = s.decrease.edge()) {
+            if (e > 0) {
+                EMC_SPINDLE_DECREASE m;
+                m.spindle = n;
+                give(m);
+            } else constant();
+        }
         if (s.brake_on.rose()) { EMC_SPINDLE_BRAKE_ENGAGE m; m.spindle = n; give(m); }
         if (s.brake_off.rose()) { EMC_SPINDLE_BRAKE_RELEASE m; m.spindle = n; give(m); }
     }
@@ -538,10 +565,12 @@ void Halui::commands() {
     if (selected_unhome_.rose()) unhome(static_cast<int>(**joint_selected_));
 }
 
-void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints, std::vector<Bit> &select,
-                      std::vector<hal_bit_t **> &lamps, const std::vector<int> &present) {
+void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband,
+                      bool joints, std::vector<Bit> &select, std::vector<hal_bit_t **> &lamps,
+                      const std::vector<int> &present) {
     int current = static_cast<int>(**number);
-    bool active = joints ? stat_.motion.traj.mode != EMC_TRAJ_MODE_TELEOP : stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP;
+    bool active =
+        joints ? stat_.motion.traj.mode != EMC_TRAJ_MODE_TELEOP : stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP;
     for (int n : present) {
         if (!select[static_cast<size_t>(n)].rose()) continue;
         **number = static_cast<rtapi_u32>(n);
@@ -555,7 +584,8 @@ void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, 
     }
     bool faster = speed.changed();
     auto one = [&](Jog &j, int n) {
-        int plus = j.plus.edge(), minus = j.minus.edge(), inc_plus = j.increment_plus.edge(), inc_minus = j.increment_minus.edge();
+        int plus = j.plus.edge(), minus = j.minus.edge(), inc_plus = j.increment_plus.edge(),
+            inc_minus = j.increment_minus.edge();
         bool turned = j.has_analog && j.analog.changed();
         if (!active) return;
         if (plus > 0 || (faster && j.plus.old)) jog_cont(n, speed.now(), joints);
@@ -578,12 +608,15 @@ void Halui::jogs() {
     for (int n = 0; n < joints_; n++) joints.push_back(n);
     for (int i = 0; i < EMCMOT_MAX_AXIS; i++)
         if (axis_mask_ & (1 << i)) axes.push_back(i);
-    jog_group(joint_jog_, joint_selected_jog_, joint_selected_, joint_speed_, joint_deadband_, true, joint_select_, joint_is_selected_, joints);
-    jog_group(axis_jog_, axis_selected_jog_, axis_selected_, axis_speed_, axis_deadband_, false, axis_select_, axis_is_selected_, axes);
+    jog_group(joint_jog_, joint_selected_jog_, joint_selected_, joint_speed_, joint_deadband_, true, joint_select_,
+              joint_is_selected_, joints);
+    jog_group(axis_jog_, axis_selected_jog_, axis_selected_, axis_speed_, axis_deadband_, false, axis_select_,
+              axis_is_selected_, axes);
 }
 
 void Halui::mdi() {
-    const bool may = stat_.control_pid == 0 || stat_.control_pid == getpid(); // else task refuses it, and tells the operator
+    const bool may =
+        stat_.control_pid == 0 || stat_.control_pid == getpid(); // else task refuses it, and tells the operator
     for (size_t n = 0; n < mdi_.size(); n++) {
         if (!mdi_[n].rose()) continue;
         if (may && !**mdi_running_) {
@@ -638,15 +671,20 @@ void Halui::show() {
     for (int n = 0; n < joints_; n++) joint_lamps_[static_cast<size_t>(n)].show(stat_.motion.joint[n]);
     if (**joint_selected_ < EMCMOT_MAX_JOINTS) selected_lamps_.show(stat_.motion.joint[**joint_selected_]);
 
-    auto nine = [](const EmcPose &p) { return std::vector<double>{p.tran.x, p.tran.y, p.tran.z, p.a, p.b, p.c, p.u, p.v, p.w}; };
-    std::vector<double> cmd = nine(traj.position), act = nine(traj.actualPosition), g5x = nine(t.g5x_offset), g92 = nine(t.g92_offset), tool = nine(t.toolOffset);
+    auto nine = [](const EmcPose &p) {
+        return std::vector<double>{p.tran.x, p.tran.y, p.tran.z, p.a, p.b, p.c, p.u, p.v, p.w};
+    };
+    std::vector<double> cmd = nine(traj.position), act = nine(traj.actualPosition), g5x = nine(t.g5x_offset),
+                        g92 = nine(t.g92_offset), tool = nine(t.toolOffset);
     double x = act[0] - g5x[0] - tool[0], y = act[1] - g5x[1] - tool[1], a = -t.rotation_xy * M_PI / 180;
     for (size_t i = 0; i < EMCMOT_MAX_AXIS; i++) {
         tool_offset_[i].set(tool[i]);
         if (!pos_commanded_[i].pin) continue;
         pos_commanded_[i].set(cmd[i]);
         pos_feedback_[i].set(act[i]);
-        double rel = i == 0 ? x * std::cos(a) - y * std::sin(a) : i == 1 ? x * std::sin(a) + y * std::cos(a) : act[i] - g5x[i] - tool[i];
+        double rel = i == 0   ? x * std::cos(a) - y * std::sin(a)
+                     : i == 1 ? x * std::sin(a) + y * std::cos(a)
+                              : act[i] - g5x[i] - tool[i];
         pos_relative_[i].set(rel - g92[i]);
     }
     int number = stat_.io.tool.toolInSpindle;
@@ -681,11 +719,14 @@ void Halui::run() {
 void Halui::release() {
     auto all = [&](std::vector<Jog> &jogs, const Jog &selected, hal_u32_t **number, const Real &deadband, bool joints) {
         for (size_t n = 0; n < jogs.size(); n++)
-            if (jogs[n].held() || std::fabs(jogs[n].analog.now()) > deadband.now() || (selected.held() && **number == n)) jog_stop(static_cast<int>(n), joints);
+            if (jogs[n].held() || std::fabs(jogs[n].analog.now()) > deadband.now() ||
+                (selected.held() && **number == n))
+                jog_stop(static_cast<int>(n), joints);
     };
     refresh();
     if (stat_.task.mode != EMC_TASK_MODE_MANUAL || stat_.task.state != EMC_TASK_STATE_ON) return;
-    if (stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP) all(axis_jog_, axis_selected_jog_, axis_selected_, axis_deadband_, false);
+    if (stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP)
+        all(axis_jog_, axis_selected_jog_, axis_selected_, axis_deadband_, false);
     else all(joint_jog_, joint_selected_jog_, joint_selected_, joint_deadband_, true);
 }
 

@@ -28,7 +28,8 @@ unsigned outside(const Matrix &m, double x, double y, double z)
 {
     const double cx = m[0] * x + m[1] * y + m[2] * z + m[3], cy = m[4] * x + m[5] * y + m[6] * z + m[7],
                  cw = m[12] * x + m[13] * y + m[14] * z + m[15];
-    return (cx < -cw ? 1u : 0u) | (cx > cw ? 2u : 0u) | (cy < -cw ? 4u : 0u) | (cy > cw ? 8u : 0u) | (cw <= 0 ? 16u : 0u);
+    return (cx < -cw ? 1u : 0u) | (cx > cw ? 2u : 0u) | (cy < -cw ? 4u : 0u) | (cy > cw ? 8u : 0u) |
+           (cw <= 0 ? 16u : 0u);
 }
 
 /// False when a box is surely not in the window.
@@ -40,21 +41,23 @@ bool visible(const Matrix &m, const std::array<float, 6> &b)
 }
 
 /// The pixels that an inch at the drawing's nearest corner takes at most.
-double pixels_per_inch(const Matrix &m, int width, int height, const std::array<double, 3> &low, const std::array<double, 3> &high)
-{
+double pixels_per_inch(const Matrix &m, int width, int height, const std::array<double, 3> &low,
+                       const std::array<double, 3> &high) {
     double w = 1e300;
     for (unsigned i = 0; i < 8; ++i) {
         const double x = i & 1 ? high[0] : low[0], y = i & 2 ? high[1] : low[1], z = i & 4 ? high[2] : low[2];
         w = std::min(w, m[12] * x + m[13] * y + m[14] * z + m[15]);
     }
-    const double x = std::hypot(m[0], std::hypot(m[1], m[2])) * width / 2, y = std::hypot(m[4], std::hypot(m[5], m[6])) * height / 2;
+    const double x = std::hypot(m[0], std::hypot(m[1], m[2])) * width / 2,
+                 y = std::hypot(m[4], std::hypot(m[5], m[6])) * height / 2;
     return std::max(x, y) / std::max(w, 0.05);
 }
 
 /// Square of the distance of a point from the piece a b.
 float beside2(const float *p, const float *a, const float *b)
 {
-    const float dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2], px = p[0] - a[0], py = p[1] - a[1], pz = p[2] - a[2];
+    const float dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2], px = p[0] - a[0], py = p[1] - a[1],
+                pz = p[2] - a[2];
     const float length2 = dx * dx + dy * dy + dz * dz, along = px * dx + py * dy + pz * dz;
     const float t = along <= 0 || length2 == 0 ? 0 : along >= length2 ? 1 : along / length2;
     const float ex = px - t * dx, ey = py - t * dy, ez = pz - t * dz;
@@ -117,8 +120,10 @@ Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines
     for (size_t i = 0; i < count; ++i) {
         std::copy_n(points + columns * i, columns, to);
         if (place.turns() && i > 0 && kinds[i] < JUMP) { // a rotary move is a curve
-            const double most = std::max({std::fabs(to[3] - from[3]), std::fabs(to[4] - from[4]), std::fabs(to[5] - from[5])});
-            const int steps = most > 0 ? int(std::min(10000.0, std::ceil(std::max(MIN_TURN_STEPS, most / TURN_STEP_DEG)))) : 1;
+            const double most =
+                std::max({std::fabs(to[3] - from[3]), std::fabs(to[4] - from[4]), std::fabs(to[5] - from[5])});
+            const int steps =
+                most > 0 ? int(std::min(10000.0, std::ceil(std::max(MIN_TURN_STEPS, most / TURN_STEP_DEG)))) : 1;
             for (int k = 1; k < steps; ++k) {
                 float between[9];
                 for (size_t a = 0; a < 9; ++a) between[a] = from[a] + (to[a] - from[a]) * float(k) / float(steps);
@@ -278,8 +283,8 @@ std::vector<std::pair<uint32_t, uint32_t>> Drawing::spans(int32_t line) const
     return out;
 }
 
-int32_t Drawing::pick(const Matrix &matrix, int width, int height, double x, double y, double radius, unsigned shown) const
-{
+int32_t Drawing::pick(const Matrix &matrix, int width, int height, double x, double y, double radius,
+                      unsigned shown) const {
     std::vector<Rgba> palette;
     for (unsigned kind = 0; kind < JUMP; ++kind) palette.push_back({0, 0, 0, uint8_t(shown >> kind & 1 ? 255 : 0)});
     const Path path{xyz_.data(), kinds_.data(), kinds_.size(), 3};

@@ -60,7 +60,8 @@ class Drawing {
 public:
     static constexpr size_t CHUNK = 2048; // list entries
 
-    /// points: count rows of the first `columns` of nine axes (inches, degrees); the others are zero. kinds: what ends at a vertex, JUMP (3) begins a run.
+    /// points: count rows of the first `columns` of nine axes (inches, degrees); the others are zero.
+    /// kinds: what ends at a vertex, JUMP (3) begins a run.
     Drawing(const float *points, const uint8_t *kinds, const int32_t *lines, size_t count, size_t columns,
             const Placement &placement);
 

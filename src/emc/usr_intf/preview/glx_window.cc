@@ -52,7 +52,8 @@ public:
     void make_current()
     {
         need();
-        if (!glXMakeCurrent(display_, window_, context_)) throw std::runtime_error("OpenGL: the context cannot be made current");
+        if (!glXMakeCurrent(display_, window_, context_))
+            throw std::runtime_error("OpenGL: the context cannot be made current");
         check("make_current");
     }
     void swap()
@@ -110,11 +111,28 @@ private:
     void make(unsigned long parent, bool classic)
     {
         int first_error, first_event;
-        if (!glXQueryExtension(display_, &first_error, &first_event)) throw std::runtime_error("the display has no GLX (OpenGL for X)");
+        if (!glXQueryExtension(display_, &first_error, &first_event))
+            throw std::runtime_error("the display has no GLX (OpenGL for X)");
         const int screen = DefaultScreen(display_);
-        const int wanted[] = {GLX_X_RENDERABLE, True, GLX_DRAWABLE_TYPE, GLX_WINDOW_BIT, GLX_RENDER_TYPE, GLX_RGBA_BIT,
-                                     GLX_X_VISUAL_TYPE, GLX_TRUE_COLOR, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
-                                     GLX_DOUBLEBUFFER, True, GLX_DEPTH_SIZE, classic ? 16 : 0, None};
+        const int wanted[] = {GLX_X_RENDERABLE,
+                              True,
+                              GLX_DRAWABLE_TYPE,
+                              GLX_WINDOW_BIT,
+                              GLX_RENDER_TYPE,
+                              GLX_RGBA_BIT,
+                              GLX_X_VISUAL_TYPE,
+                              GLX_TRUE_COLOR,
+                              GLX_RED_SIZE,
+                              8,
+                              GLX_GREEN_SIZE,
+                              8,
+                              GLX_BLUE_SIZE,
+                              8,
+                              GLX_DOUBLEBUFFER,
+                              True,
+                              GLX_DEPTH_SIZE,
+                              classic ? 16 : 0,
+                              None};
         int count = 0;
         GLXFBConfig *configs = glXChooseFBConfig(display_, screen, wanted, &count);
         if (!configs || count < 1) throw std::runtime_error("the display has no OpenGL visual with 24 bits of colour");
@@ -135,7 +153,8 @@ private:
         XSync(display_, False);
         if (!context_ || last_error) {
             last_error = 0;
-            throw std::runtime_error(classic ? "the display makes no OpenGL context" : "the display's OpenGL is older than 3.3");
+            throw std::runtime_error(classic ? "the display makes no OpenGL context"
+                                             : "the display's OpenGL is older than 3.3");
         }
         XMapWindow(display_, window_);
         XSync(display_, False);
@@ -145,8 +164,9 @@ private:
     {
         auto create = reinterpret_cast<PFNGLXCREATECONTEXTATTRIBSARBPROC>(
             glXGetProcAddressARB(reinterpret_cast<const GLubyte *>("glXCreateContextAttribsARB")));
-        static const int version[] = {GLX_CONTEXT_MAJOR_VERSION_ARB, 3, GLX_CONTEXT_MINOR_VERSION_ARB, 3, GLX_CONTEXT_PROFILE_MASK_ARB,
-                                      GLX_CONTEXT_CORE_PROFILE_BIT_ARB, None};
+        static const int version[] = {
+            GLX_CONTEXT_MAJOR_VERSION_ARB,    3,   GLX_CONTEXT_MINOR_VERSION_ARB, 3, GLX_CONTEXT_PROFILE_MASK_ARB,
+            GLX_CONTEXT_CORE_PROFILE_BIT_ARB, None};
         return create ? create(display_, config, nullptr, True, version) : nullptr;
     }
     /// Without buffers that are not used; depth and samples are in frame buffers of the picture.
@@ -180,8 +200,10 @@ PYBIND11_MODULE(kerf_glx, m)
 {
     m.doc() = "An OpenGL context (3.3 core, or a classic one) in a widget's X window.";
     py::class_<Window_>(m, "Window", "A child window of a widget, with a context. One thread at a time.")
-        .def(py::init<const std::string &, unsigned long, bool>(), py::arg("display"), py::arg("parent"), py::arg("classic") = false,
-             "display: its name (\"\": $DISPLAY); parent: X window id; classic: a context with fixed functions and depth "
+        .def(py::init<const std::string &, unsigned long, bool>(), py::arg("display"), py::arg("parent"),
+             py::arg("classic") = false,
+             "display: its name (\"\": $DISPLAY); parent: X window id; classic: a context with fixed functions and "
+             "depth "
              "instead of a core one. RuntimeError says why there is no OpenGL.")
         .def("make_current", &Window_::make_current)
         .def("swap", &Window_::swap, "Shows what was drawn.")

@@ -48,16 +48,16 @@ std::vector<Rgba> colours(const std::vector<std::array<int, 4>> &list)
 
 using Palette = std::vector<std::array<int, 4>>;
 
-void draw(Raster &raster, const py::buffer &points, const py::object &kinds, const Palette &palette, const Matrix &matrix,
-          size_t first, size_t last, int width)
-{
+void draw(Raster &raster, const py::buffer &points, const py::object &kinds, const Palette &palette,
+          const Matrix &matrix, size_t first, size_t last, int width) {
     Arrays arrays(points, kinds);
     auto list = colours(palette);
     py::gil_scoped_release release;
     raster.draw(arrays.path, list, matrix, first, last, width);
 }
 
-// Records of linuxcnc.positionlogger: x y z rgba x y z rgba, 32 bytes; `second`: the other path too, and the wires between both.
+// Records of linuxcnc.positionlogger: x y z rgba x y z rgba, 32 bytes; `second`: the other path too, and the
+// wires between both.
 void draw_plot(Raster &raster, const py::bytes &records, const Matrix &matrix, size_t first, size_t last, bool second)
 {
     constexpr size_t record = 8, half = 4;     // floats
@@ -83,9 +83,8 @@ void draw_plot(Raster &raster, const py::bytes &records, const Matrix &matrix, s
     }
 }
 
-long pick(const py::buffer &points, const py::object &kinds, const Palette &palette, const Matrix &matrix, int width, int height,
-          double x, double y, double radius)
-{
+long pick(const py::buffer &points, const py::object &kinds, const Palette &palette, const Matrix &matrix, int width,
+          int height, double x, double y, double radius) {
     Arrays arrays(points, kinds);
     auto list = colours(palette);
     py::gil_scoped_release release;
@@ -103,18 +102,27 @@ PYBIND11_MODULE(kerf_raster, m)
         .def(py::init<int, int>(), py::arg("width"), py::arg("height"), "Pixels, 1 to 16384.")
         .def_property_readonly("width", &Raster::width)
         .def_property_readonly("height", &Raster::height)
-        .def("assign", [](Raster &r, const Raster &from) { r = from; }, py::arg("other"), "Becomes a copy of another picture.")
-        .def("clear", [](Raster &r, const std::array<int, 4> &c) { r.clear(colour(c)); }, py::arg("colour"))
-        .def("draw", &draw, py::arg("vertices"), py::arg("kinds"), py::arg("palette"), py::arg("matrix"), py::arg("first") = 0,
-             py::arg("last") = size_t(-1), py::arg("width") = 1)
-        .def("draw_drawing", [](Raster &r, const Drawing &d, const Palette &palette, const Matrix &matrix, double pixels) {
-            const auto list = colours(palette);
-            py::gil_scoped_release release;
-            d.draw(r, list, matrix, pixels);
-        }, py::arg("drawing"), py::arg("palette"), py::arg("matrix"), py::arg("pixels") = 0.7, "A Drawing, exact to `pixels`.")
-        .def("draw_plot", &draw_plot, py::arg("records"), py::arg("matrix"), py::arg("first"), py::arg("last"), py::arg("second") = false,
+        .def(
+            "assign", [](Raster &r, const Raster &from) { r = from; }, py::arg("other"),
+            "Becomes a copy of another picture.")
+        .def(
+            "clear", [](Raster &r, const std::array<int, 4> &c) { r.clear(colour(c)); }, py::arg("colour"))
+        .def("draw", &draw, py::arg("vertices"), py::arg("kinds"), py::arg("palette"), py::arg("matrix"),
+             py::arg("first") = 0, py::arg("last") = size_t(-1), py::arg("width") = 1)
+        .def(
+            "draw_drawing",
+            [](Raster &r, const Drawing &d, const Palette &palette, const Matrix &matrix, double pixels) {
+                const auto list = colours(palette);
+                py::gil_scoped_release release;
+                d.draw(r, list, matrix, pixels);
+            },
+            py::arg("drawing"), py::arg("palette"), py::arg("matrix"), py::arg("pixels") = 0.7,
+            "A Drawing, exact to `pixels`.")
+        .def("draw_plot", &draw_plot, py::arg("records"), py::arg("matrix"), py::arg("first"), py::arg("last"),
+             py::arg("second") = false,
              "Points first to last (exclusive) of linuxcnc.positionlogger.points(), 2 pixels wide.")
-        .def("ppm", [](const Raster &r) { return py::bytes(r.ppm()); }, "The picture as a binary PPM file.")
+        .def(
+            "ppm", [](const Raster &r) { return py::bytes(r.ppm()); }, "The picture as a binary PPM file.")
         .def("pixel", [](const Raster &r, int x, int y) {
             Rgba c = r.pixel(x, y);
             return py::make_tuple(c.r, c.g, c.b);

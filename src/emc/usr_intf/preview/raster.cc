@@ -141,8 +141,8 @@ void Raster::thin_line(double x0, double y0, double x1, double y1, int steps, Rg
     for (int i = 0; i <= steps; i++, x += sx, y += sy) blend(int(x >> 16), int(y >> 16), colour);
 }
 
-void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last, int line_width)
-{
+void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last,
+                  int line_width) {
     last = std::min(last, path.count);
     if (first >= last) return;
     Window window(w_, h_);
@@ -157,15 +157,15 @@ void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matr
         }
         double x0 = window.x(a), y0 = window.y(a), x1 = window.x(b), y1 = window.y(b);
         // A piece within one pixel is left to the next that leaves it.
-        if (int(x0) == int(x1) && int(y0) == int(y1) && i + 1 < last && same(colour, colour_of(path, palette, i + 1))) continue;
+        if (int(x0) == int(x1) && int(y0) == int(y1) && i + 1 < last && same(colour, colour_of(path, palette, i + 1)))
+            continue;
         line(x0, y0, x1, y1, colour, line_width);
         from = to;
     }
 }
 
-long Raster::pick(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, int width, int height, double px,
-                  double py, double radius)
-{
+long Raster::pick(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, int width, int height,
+                  double px, double py, double radius) {
     if (path.count < 2) return -1;
     Window window(width, height);
     long best = -1;

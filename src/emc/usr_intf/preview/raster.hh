@@ -44,10 +44,11 @@ public:
 
     void clear(Rgba colour);
     /// Vertices first to last (exclusive); width in pixels (1 or more).
-    void draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last, int line_width = 1);
+    void draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last,
+              int line_width = 1);
     /// Vertex that ends the piece nearest to a pixel within `radius` pixels, or -1.
-    static long pick(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, int width, int height, double px,
-                     double py, double radius);
+    static long pick(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, int width, int height,
+                     double px, double py, double radius);
     /// The picture as a binary PPM file ("P6").
     std::string ppm() const;
     Rgba pixel(int x, int y) const;

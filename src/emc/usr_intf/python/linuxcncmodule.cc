@@ -46,9 +46,12 @@ py::object to_python(const EmcPose &p) {
 }
 py::object to_python(bool v) { return py::bool_(v); }
 py::object to_python(double v) { return py::float_(v); }
-template <class T> std::enable_if_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, py::object> to_python(T v) { return py::int_(v); }
+template <class T> std::enable_if_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, py::object> to_python(T v) {
+    return py::int_(v);
+}
 template <size_t N> py::object to_python(const char (&v)[N]) {
-    return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(v, static_cast<Py_ssize_t>(strnlen(v, N)), "replace"));
+    return py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(v, static_cast<Py_ssize_t>(strnlen(v, N)), "replace"));
 }
 template <class T, size_t N> py::object to_python(const T (&v)[N]) {
     py::tuple t(N);
@@ -85,18 +88,21 @@ py::object make_tool(const CANON_TOOL_TABLE &t) {
     int i = 0;
     auto put = [&](PyObject *v) { PyStructSequence_SetItem(o.ptr(), i++, v); };
     put(PyLong_FromLong(t.toolno));
-    for (double v : {t.offset.tran.x, t.offset.tran.y, t.offset.tran.z, t.offset.a, t.offset.b, t.offset.c, t.offset.u, t.offset.v, t.offset.w,
-                     t.diameter, t.frontangle, t.backangle})
+    for (double v : {t.offset.tran.x, t.offset.tran.y, t.offset.tran.z, t.offset.a, t.offset.b, t.offset.c, t.offset.u,
+                     t.offset.v, t.offset.w, t.diameter, t.frontangle, t.backangle})
         put(PyFloat_FromDouble(v));
     put(PyLong_FromLong(t.orientation));
     return o;
 }
 
 void define_tool_type(py::module_ &m) {
-    static PyStructSequence_Field fields[] = {{"id", nullptr}, {"xoffset", nullptr}, {"yoffset", nullptr}, {"zoffset", nullptr}, {"aoffset", nullptr},
-        {"boffset", nullptr}, {"coffset", nullptr}, {"uoffset", nullptr}, {"voffset", nullptr}, {"woffset", nullptr}, {"diameter", nullptr},
-        {"frontangle", nullptr}, {"backangle", nullptr}, {"orientation", nullptr}, {nullptr, nullptr}};
-    static PyStructSequence_Desc desc = {"tool_result", "One entry of the tool table (machine units, degrees)", fields, 14};
+    static PyStructSequence_Field fields[] = {{"id", nullptr},        {"xoffset", nullptr},     {"yoffset", nullptr},
+                                              {"zoffset", nullptr},   {"aoffset", nullptr},     {"boffset", nullptr},
+                                              {"coffset", nullptr},   {"uoffset", nullptr},     {"voffset", nullptr},
+                                              {"woffset", nullptr},   {"diameter", nullptr},    {"frontangle", nullptr},
+                                              {"backangle", nullptr}, {"orientation", nullptr}, {nullptr, nullptr}};
+    static PyStructSequence_Desc desc = {"tool_result", "One entry of the tool table (machine units, degrees)", fields,
+                                         14};
     tool_type = PyStructSequence_NewType(&desc);
     m.attr("tool") = py::reinterpret_borrow<py::object>(reinterpret_cast<PyObject *>(tool_type));
 }
@@ -131,7 +137,11 @@ struct PropertyMaker {
             if (!*f.attribute) return;
             std::ptrdiff_t at = reinterpret_cast<const char *>(&member) - reinterpret_cast<const char *>(&base);
             cls.def_property_readonly(
-                f.attribute, [at](const Stat &s) { return to_python(*reinterpret_cast<const T *>(reinterpret_cast<const char *>(&s.data) + at)); }, f.doc);
+                f.attribute,
+                [at](const Stat &s) {
+                    return to_python(*reinterpret_cast<const T *>(reinterpret_cast<const char *>(&s.data) + at));
+                },
+                f.doc);
         }
     }
 };
@@ -190,26 +200,47 @@ void define_stat(py::module_ &m) {
     PropertyMaker maker{cls, sample};
     EMC_STAT::fields(maker, sample);
     cls.def_property_readonly("state", [](const Stat &s) { return s.data.status; }, "RCS_DONE, RCS_EXEC or RCS_ERROR");
-    cls.def_property_readonly("echo_serial_number", [](const Stat &s) { return s.data.echo_serial_number; }, "serial number of the last command task has read");
+    cls.def_property_readonly(
+        "echo_serial_number", [](const Stat &s) { return s.data.echo_serial_number; },
+        "serial number of the last command task has read");
     cls.def_property_readonly("mdi_queue", [](const Stat &s) {
             py::list lines;
-            for (int i = 0; i < EMC_MDI_QUEUE_SHOWN && s.data.mdi_serial[i] != 0; i++) lines.append(py::make_tuple(s.data.mdi_serial[i], to_python(s.data.mdi_line[i])));
+            for (int i = 0; i < EMC_MDI_QUEUE_SHOWN && s.data.mdi_serial[i] != 0; i++)
+                lines.append(py::make_tuple(s.data.mdi_serial[i], to_python(s.data.mdi_line[i])));
             return py::tuple(lines);
         }, "MDI lines that wait, the next one first, at most 16: (serial number of the command that brought it, line)");
     cls.def_property_readonly("joint", [](const Stat &s) { return dicts(s.data.motion.joint); }, "one dict per joint");
-    cls.def_property_readonly("axis", [](const Stat &s) { return dicts(s.data.motion.axis); }, "one dict per axis, XYZABCUVW");
-    cls.def_property_readonly("spindle", [](const Stat &s) { return dicts(s.data.motion.spindle); }, "one dict per spindle");
-    cls.def_property_readonly("homed", [](const Stat &s) { return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::int_(int(j.homed)); }); },
-                              "0/1 per joint");
-    cls.def_property_readonly("limit", [](const Stat &s) {
+    cls.def_property_readonly(
+        "axis", [](const Stat &s) { return dicts(s.data.motion.axis); }, "one dict per axis, XYZABCUVW");
+    cls.def_property_readonly(
+        "spindle", [](const Stat &s) { return dicts(s.data.motion.spindle); }, "one dict per spindle");
+    cls.def_property_readonly(
+        "homed",
+        [](const Stat &s) {
+            return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::int_(int(j.homed)); });
+        },
+        "0/1 per joint");
+    cls.def_property_readonly(
+        "limit",
+        [](const Stat &s) {
             return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) {
-                return py::int_((j.minHardLimit ? 1 : 0) | (j.maxHardLimit ? 2 : 0) | (j.minSoftLimit ? 4 : 0) | (j.maxSoftLimit ? 8 : 0));
+                return py::int_((j.minHardLimit ? 1 : 0) | (j.maxHardLimit ? 2 : 0) | (j.minSoftLimit ? 4 : 0) |
+                                (j.maxSoftLimit ? 8 : 0));
             });
-        }, "per joint: 1 min hard, 2 max hard, 4 min soft, 8 max soft");
-    cls.def_property_readonly("joint_position", [](const Stat &s) { return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::float_(j.output); }); },
-                              "commanded position per joint, machine units");
-    cls.def_property_readonly("joint_actual_position", [](const Stat &s) { return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::float_(j.input); }); },
-                              "position by feedback per joint, machine units");
+        },
+        "per joint: 1 min hard, 2 max hard, 4 min soft, 8 max soft");
+    cls.def_property_readonly(
+        "joint_position",
+        [](const Stat &s) {
+            return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::float_(j.output); });
+        },
+        "commanded position per joint, machine units");
+    cls.def_property_readonly(
+        "joint_actual_position",
+        [](const Stat &s) {
+            return per_joint(s.data.motion.joint, [](const EMC_JOINT_STAT &j) { return py::float_(j.input); });
+        },
+        "position by feedback per joint, machine units");
     cls.def_property_readonly("tool_table", &tool_table, "tools by index, 0 is the spindle; read when asked for");
     cls.def("toolinfo", &tool_info, "Data of a tool number as a dict");
 }
@@ -251,8 +282,10 @@ std::string text_of(const py::handle &o) {
 void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
     c.plain<EMC_TASK_PLAN_CLOSE>();
     if (kwargs && kwargs.size() > 0) throw py::type_error("program_open() takes no keyword arguments");
-    if (args.size() != 1) throw py::type_error("function takes exactly 1 argument (" + std::to_string(args.size()) + " given)");
-    if (!py::isinstance<py::str>(args[0])) throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
+    if (args.size() != 1)
+        throw py::type_error("function takes exactly 1 argument (" + std::to_string(args.size()) + " given)");
+    if (!py::isinstance<py::str>(args[0]))
+        throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
     std::string file = text_of(args[0]);
     if (file.size() >= LINELEN) throw py::value_error("File name limited to 254 characters");
     EMC_TASK_PLAN_OPEN m;
@@ -288,9 +321,12 @@ void mdi(Command &c, const py::object &text) {
 }
 
 void automatic(Command &c, const py::args &a) {
-    if (a.size() < 1 || a.size() > 2) throw py::type_error("function takes at least 1 and at most 2 arguments (" + std::to_string(a.size()) + " given)");
+    if (a.size() < 1 || a.size() > 2)
+        throw py::type_error("function takes at least 1 and at most 2 arguments (" + std::to_string(a.size()) +
+                             " given)");
     int op = a[0].cast<int>(), line = a.size() > 1 ? a[1].cast<int>() : 0;
-    if (op >= 1 && op <= 5 && a.size() != 1) throw py::type_error("function takes exactly 1 argument (" + std::to_string(a.size()) + " given)");
+    if (op >= 1 && op <= 5 && a.size() != 1)
+        throw py::type_error("function takes exactly 1 argument (" + std::to_string(a.size()) + " given)");
     if (op == 0 && a.size() == 2) {
         EMC_TASK_PLAN_RUN m;
         m.line = line;
@@ -332,7 +368,9 @@ void restore_confirm(Command &c, int line) {
 }
 
 void set_spindle(Command &c, const py::args &a) {
-    if (a.size() < 1 || a.size() > 4) throw py::type_error("function takes at least 1 and at most 4 arguments (" + std::to_string(a.size()) + " given)");
+    if (a.size() < 1 || a.size() > 4)
+        throw py::type_error("function takes at least 1 and at most 4 arguments (" + std::to_string(a.size()) +
+                             " given)");
     int dir = a[0].cast<int>();
     double a1 = a.size() > 1 ? a[1].cast<double>() : 0;
     int a2 = a.size() > 2 ? a[2].cast<int>() : 0, a3 = a.size() > 3 ? a[3].cast<int>() : 0;
@@ -351,17 +389,21 @@ void set_spindle(Command &c, const py::args &a) {
     case 11: { EMC_SPINDLE_DECREASE m; m.spindle = static_cast<int>(a1); c.give(m); return; }
     case 12: { EMC_SPINDLE_CONSTANT m; m.spindle = static_cast<int>(a1); c.give(m); return; }
     default:
-        throw py::value_error("Spindle direction should be SPINDLE_FORWARD, SPINDLE_REVERSE, SPINDLE_OFF, SPINDLE_INCREASE, SPINDLE_DECREASE, or SPINDLE_CONSTANT");
+        throw py::value_error("Spindle direction should be SPINDLE_FORWARD, SPINDLE_REVERSE, SPINDLE_OFF, "
+                              "SPINDLE_INCREASE, SPINDLE_DECREASE, or SPINDLE_CONSTANT");
     }
 }
 
 void jog(Command &c, const py::args &a) {
-    if (a.size() < 3) throw py::type_error("function takes at least 3 arguments (" + std::to_string(a.size()) + " given)");
-    if (a.size() > 5) throw py::type_error("function takes at most 5 arguments (" + std::to_string(a.size()) + " given)");
+    if (a.size() < 3)
+        throw py::type_error("function takes at least 3 arguments (" + std::to_string(a.size()) + " given)");
+    if (a.size() > 5)
+        throw py::type_error("function takes at most 5 arguments (" + std::to_string(a.size()) + " given)");
     int op = a[0].cast<int>(), jjogmode = a[1].cast<int>(), nr = a[2].cast<int>();
     auto count = [&](size_t n, const char *what) {
         if (a.size() != n)
-            throw py::type_error(std::string("jog(") + what + ", ...) takes " + std::to_string(n) + " arguments (" + std::to_string(a.size()) + " given)");
+            throw py::type_error(std::string("jog(") + what + ", ...) takes " + std::to_string(n) + " arguments (" +
+                                 std::to_string(a.size()) + " given)");
     };
     switch (op) {
     case 0:
@@ -411,8 +453,14 @@ template <class M, size_t N> void relay(Command &c, const py::str &text, char (M
 }
 
 unsigned char octet(long v) {
-    if (v < 0) { PyErr_SetString(PyExc_OverflowError, "unsigned byte integer is less than minimum"); throw py::error_already_set(); }
-    if (v > 255) { PyErr_SetString(PyExc_OverflowError, "unsigned byte integer is greater than maximum"); throw py::error_already_set(); }
+    if (v < 0) {
+        PyErr_SetString(PyExc_OverflowError, "unsigned byte integer is less than minimum");
+        throw py::error_already_set();
+    }
+    if (v > 255) {
+        PyErr_SetString(PyExc_OverflowError, "unsigned byte integer is greater than maximum");
+        throw py::error_already_set();
+    }
     return static_cast<unsigned char>(v);
 }
 
@@ -430,7 +478,8 @@ template <class F> auto checked(F f) {
 // Waits at most timeout_s (what is no positive number: looks once), and lets Python's signals through meanwhile.
 int wait_complete(Command &c, double timeout_s) {
     constexpr double SLICE_S = 0.25, FOR_EVER_S = 1e9;
-    if (!c.client.status_channel().valid()) raise_error("emcStatusBuffer invalid err=" + std::to_string(c.client.status_channel().error_type));
+    if (!c.client.status_channel().valid())
+        raise_error("emcStatusBuffer invalid err=" + std::to_string(c.client.status_channel().error_type));
     double left_s = timeout_s > 0 ? std::min(timeout_s, FOR_EVER_S) : 0;
     const int64_t end = kerf_clock_now_ns() + static_cast<int64_t>(left_s * 1e9);
     for (;;) {
@@ -446,40 +495,63 @@ int wait_complete(Command &c, double timeout_s) {
 }
 
 void define_command(py::module_ &m) {
-    py::class_<Command> cls(m, "command", py::dynamic_attr(), "Commands to the controller; each returns when task has read it");
+    py::class_<Command> cls(m, "command", py::dynamic_attr(),
+                            "Commands to the controller; each returns when task has read it");
     cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<Command>(); }));
-    cls.def_property_readonly("serial", [](const Command &c) { return c.client.serial(); }, "serial number of the last command");
+    cls.def_property_readonly(
+        "serial", [](const Command &c) { return c.client.serial(); }, "serial number of the last command");
     cls.def("abort", [](Command &c) { c.plain<EMC_TASK_ABORT>(); }, "Stops everything");
-    cls.def("take_control", &take_control, py::arg("name"), "take_control(name): only this program commands the machine from now on; see stat.control_pid");
-    cls.def("release_control", [](Command &c) { c.plain<EMC_TASK_RELEASE_CONTROL>(); }, "Everybody commands the machine again");
+    cls.def("take_control", &take_control, py::arg("name"),
+            "take_control(name): only this program commands the machine from now on; see stat.control_pid");
+    cls.def(
+        "release_control", [](Command &c) { c.plain<EMC_TASK_RELEASE_CONTROL>(); },
+        "Everybody commands the machine again");
     cls.def("mdi_cancel", &mdi_cancel, py::arg("serial"),
-            "mdi_cancel(serial): takes the MDI line that this command brought out of those that wait (stat.mdi_queue); 0: all of them");
-    cls.def("restore", &restore, py::arg("line"), "restore(line): shows what a start at that line would restore first (stat.restore_text); nothing moves");
-    cls.def("restore_confirm", &restore_confirm, py::arg("line"), "restore_confirm(line): restores what was shown for that line, then runs from there");
-    cls.def("auto", checked(automatic), "auto(AUTO_RUN, line) or auto(AUTO_PAUSE | AUTO_RESUME | AUTO_STEP | AUTO_REVERSE | AUTO_FORWARD)");
+            "mdi_cancel(serial): takes the MDI line that this command brought out of those that wait (stat.mdi_queue); "
+            "0: all of them");
+    cls.def("restore", &restore, py::arg("line"),
+            "restore(line): shows what a start at that line would restore first (stat.restore_text); nothing moves");
+    cls.def("restore_confirm", &restore_confirm, py::arg("line"),
+            "restore_confirm(line): restores what was shown for that line, then runs from there");
+    cls.def("auto", checked(automatic),
+            "auto(AUTO_RUN, line) or auto(AUTO_PAUSE | AUTO_RESUME | AUTO_STEP | AUTO_REVERSE | AUTO_FORWARD)");
     cls.def("brake", [](Command &c, int state, int spindle) {
             if (state == 1) { EMC_SPINDLE_BRAKE_ENGAGE b; b.spindle = spindle; c.give(b); }
             else if (state == 0) { EMC_SPINDLE_BRAKE_RELEASE b; b.spindle = spindle; c.give(b); }
             else throw py::value_error("BRAKE should be BRAKE_ENGAGE or BRAKE_RELEASE");
         }, py::arg("state"), py::arg("spindle") = 0);
-    cls.def("debug", [](Command &c, int bits) { one_value<EMC_SET_DEBUG, unsigned, &EMC_SET_DEBUG::debug>(c, static_cast<unsigned>(bits)); });
-    cls.def("display_msg", [](Command &c, const py::str &s) { relay<EMC_OPERATOR_DISPLAY>(c, s, &EMC_OPERATOR_DISPLAY::display); });
-    cls.def("error_msg", [](Command &c, const py::str &s) { relay<EMC_OPERATOR_ERROR>(c, s, &EMC_OPERATOR_ERROR::error); });
+    cls.def("debug", [](Command &c, int bits) {
+        one_value<EMC_SET_DEBUG, unsigned, &EMC_SET_DEBUG::debug>(c, static_cast<unsigned>(bits));
+    });
+    cls.def("display_msg",
+            [](Command &c, const py::str &s) { relay<EMC_OPERATOR_DISPLAY>(c, s, &EMC_OPERATOR_DISPLAY::display); });
+    cls.def("error_msg",
+            [](Command &c, const py::str &s) { relay<EMC_OPERATOR_ERROR>(c, s, &EMC_OPERATOR_ERROR::error); });
     cls.def("text_msg", [](Command &c, const py::str &s) { relay<EMC_OPERATOR_TEXT>(c, s, &EMC_OPERATOR_TEXT::text); });
-    cls.def("feedrate", &one_value<EMC_TRAJ_SET_SCALE, double, &EMC_TRAJ_SET_SCALE::scale>, "Feed override, 1.0 = 100 %");
-    cls.def("rapidrate", &one_value<EMC_TRAJ_SET_RAPID_SCALE, double, &EMC_TRAJ_SET_RAPID_SCALE::scale>, "Rapid override, 1.0 = 100 %");
-    cls.def("maxvel", &one_value<EMC_TRAJ_SET_MAX_VELOCITY, double, &EMC_TRAJ_SET_MAX_VELOCITY::velocity>, "Cap of the path velocity, machine units/s");
+    cls.def("feedrate", &one_value<EMC_TRAJ_SET_SCALE, double, &EMC_TRAJ_SET_SCALE::scale>,
+            "Feed override, 1.0 = 100 %");
+    cls.def("rapidrate", &one_value<EMC_TRAJ_SET_RAPID_SCALE, double, &EMC_TRAJ_SET_RAPID_SCALE::scale>,
+            "Rapid override, 1.0 = 100 %");
+    cls.def("maxvel", &one_value<EMC_TRAJ_SET_MAX_VELOCITY, double, &EMC_TRAJ_SET_MAX_VELOCITY::velocity>,
+            "Cap of the path velocity, machine units/s");
     cls.def("spindleoverride", [](Command &c, double scale, int spindle) {
             EMC_TRAJ_SET_SPINDLE_SCALE s;
             s.scale = scale;
             s.spindle = spindle;
             c.give(s);
         }, py::arg("scale"), py::arg("spindle") = 0, "Spindle override, 1.0 = 100 %");
-    cls.def("flood", [](Command &c, int on) { on_off<EMC_COOLANT_FLOOD_ON, EMC_COOLANT_FLOOD_OFF>(c, on, "FLOOD should be FLOOD_ON or FLOOD_OFF"); });
-    cls.def("mist", [](Command &c, int on) { on_off<EMC_COOLANT_MIST_ON, EMC_COOLANT_MIST_OFF>(c, on, "Mist should be MIST_ON or MIST_OFF"); });
+    cls.def("flood", [](Command &c, int on) {
+        on_off<EMC_COOLANT_FLOOD_ON, EMC_COOLANT_FLOOD_OFF>(c, on, "FLOOD should be FLOOD_ON or FLOOD_OFF");
+    });
+    cls.def("mist", [](Command &c, int on) {
+        on_off<EMC_COOLANT_MIST_ON, EMC_COOLANT_MIST_OFF>(c, on, "Mist should be MIST_ON or MIST_OFF");
+    });
     cls.def("home", &one_value<EMC_JOINT_HOME, int, &EMC_JOINT_HOME::joint>, "Homes a joint, -1 all");
-    cls.def("unhome", &one_value<EMC_JOINT_UNHOME, int, &EMC_JOINT_UNHOME::joint>, "Unhomes a joint, -1 all, -2 those with volatile home");
-    cls.def("jog", checked(jog), "jog(JOG_STOP, jjogmode, nr), jog(JOG_CONTINUOUS, jjogmode, nr, vel), jog(JOG_INCREMENT, jjogmode, nr, vel, distance)");
+    cls.def("unhome", &one_value<EMC_JOINT_UNHOME, int, &EMC_JOINT_UNHOME::joint>,
+            "Unhomes a joint, -1 all, -2 those with volatile home");
+    cls.def("jog", checked(jog),
+            "jog(JOG_STOP, jjogmode, nr), jog(JOG_CONTINUOUS, jjogmode, nr, vel), jog(JOG_INCREMENT, jjogmode, nr, "
+            "vel, distance)");
     cls.def("load_tool_table", [](Command &c) { c.plain<EMC_TOOL_LOAD_TOOL_TABLE>(); });
     cls.def("mdi", &mdi, "Executes one line of G-code");
     cls.def("mode", [](Command &c, int mode) {
@@ -489,7 +561,8 @@ void define_command(py::module_ &m) {
         c.give(s);
     });
     cls.def("state", [](Command &c, int state) {
-        if (state < 1 || state > 4) throw py::value_error("Machine state should be STATE_ESTOP, STATE_ESTOP_RESET, STATE_ON, or STATE_OFF");
+        if (state < 1 || state > 4)
+            throw py::value_error("Machine state should be STATE_ESTOP, STATE_ESTOP_RESET, STATE_ON, or STATE_OFF");
         EMC_TASK_SET_STATE s;
         s.state = state;
         c.give(s);
@@ -521,14 +594,35 @@ void define_command(py::module_ &m) {
         s.start = s.end = octet(value);
         c.give(s);
     });
-    cls.def("set_block_delete", [](Command &c, int on) { EMC_TASK_PLAN_SET_BLOCK_DELETE s; s.state = on != 0; c.give(s); });
-    cls.def("set_optional_stop", [](Command &c, int on) { EMC_TASK_PLAN_SET_OPTIONAL_STOP s; s.state = on != 0; c.give(s); });
-    cls.def("set_max_limit", [](Command &c, int joint, double limit) { EMC_JOINT_SET_MAX_POSITION_LIMIT s; s.joint = joint; s.limit = limit; c.give(s); });
-    cls.def("set_min_limit", [](Command &c, int joint, double limit) { EMC_JOINT_SET_MIN_POSITION_LIMIT s; s.joint = joint; s.limit = limit; c.give(s); });
-    cls.def("spindle", checked(set_spindle), "spindle(SPINDLE_FORWARD | SPINDLE_REVERSE, rpm[, spindle[, wait]]), spindle(SPINDLE_OFF | ...[, spindle])");
+    cls.def("set_block_delete", [](Command &c, int on) {
+        EMC_TASK_PLAN_SET_BLOCK_DELETE s;
+        s.state = on != 0;
+        c.give(s);
+    });
+    cls.def("set_optional_stop", [](Command &c, int on) {
+        EMC_TASK_PLAN_SET_OPTIONAL_STOP s;
+        s.state = on != 0;
+        c.give(s);
+    });
+    cls.def("set_max_limit", [](Command &c, int joint, double limit) {
+        EMC_JOINT_SET_MAX_POSITION_LIMIT s;
+        s.joint = joint;
+        s.limit = limit;
+        c.give(s);
+    });
+    cls.def("set_min_limit", [](Command &c, int joint, double limit) {
+        EMC_JOINT_SET_MIN_POSITION_LIMIT s;
+        s.joint = joint;
+        s.limit = limit;
+        c.give(s);
+    });
+    cls.def(
+        "spindle", checked(set_spindle),
+        "spindle(SPINDLE_FORWARD | SPINDLE_REVERSE, rpm[, spindle[, wait]]), spindle(SPINDLE_OFF | ...[, spindle])");
     cls.def("teleop_enable", &one_value<EMC_TRAJ_SET_TELEOP_ENABLE, int, &EMC_TRAJ_SET_TELEOP_ENABLE::enable>);
     cls.def("traj_mode", &one_value<EMC_TRAJ_SET_MODE, int, &EMC_TRAJ_SET_MODE::mode>);
-    cls.def("tool_offset", [](Command &c, int toolno, double z, double x, double diameter, double front, double back, int orientation) {
+    cls.def("tool_offset", [](Command &c, int toolno, double z, double x, double diameter, double front, double back,
+                              int orientation) {
         EMC_TOOL_SET_OFFSET s;
         s.toolno = toolno;
         s.offset.tran.z = z;
@@ -539,7 +633,8 @@ void define_command(py::module_ &m) {
         s.orientation = orientation;
         c.give(s);
     });
-    cls.def("wait_complete", &wait_complete, py::arg("timeout") = 5.0, "Waits for the last command: RCS_DONE, RCS_ERROR, or -1 after timeout seconds");
+    cls.def("wait_complete", &wait_complete, py::arg("timeout") = 5.0,
+            "Waits for the last command: RCS_DONE, RCS_ERROR, or -1 after timeout seconds");
 }
 
 // ---- error channel ----
@@ -571,7 +666,8 @@ private:
 };
 
 void define_error_channel(py::module_ &m) {
-    py::class_<ErrorChannel> cls(m, "error_channel", py::dynamic_attr(), "Messages to the operator; each is given to one reader");
+    py::class_<ErrorChannel> cls(m, "error_channel", py::dynamic_attr(),
+                                 "Messages to the operator; each is given to one reader");
     cls.def(py::init([](const py::args &, const py::kwargs &) { return std::make_unique<ErrorChannel>(); }));
     cls.def("poll", &ErrorChannel::poll, "The oldest message as (kind, text), or None");
 }
@@ -615,7 +711,8 @@ private:
 };
 
 void define_message_log(py::module_ &m) {
-    py::class_<MessageLog> cls(m, "message_log", py::dynamic_attr(), "The last messages to the operator; every reader sees them all");
+    py::class_<MessageLog> cls(m, "message_log", py::dynamic_attr(),
+                               "The last messages to the operator; every reader sees them all");
     cls.def(py::init<>());
     cls.def("poll", &MessageLog::poll, "Those since the last poll as dicts: number, kind, text, source, command, time");
     cls.def_readonly("missed", &MessageLog::missed, "messages that came and went between two polls");
@@ -629,7 +726,8 @@ void define_constants(py::module_ &m) {
 
 } // namespace
 
-Stat::Stat(const std::string &nmlfile) : channel(std::make_unique<NML>(emc_messages(), "emcStatus", "xemc", nmlfile.empty() ? nullptr : nmlfile.c_str())) {
+Stat::Stat(const std::string &nmlfile)
+    : channel(std::make_unique<NML>(emc_messages(), "emcStatus", "xemc", nmlfile.empty() ? nullptr : nmlfile.c_str())) {
     unsigned char *raw = reinterpret_cast<unsigned char *>(&data);
     std::memset(raw, 0, sizeof data); // all attributes are zero before the first poll
 }

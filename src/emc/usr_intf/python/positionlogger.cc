@@ -47,8 +47,11 @@ std::array<double, 3> vertex(const std::array<double, 9> &p, const char *geometr
     std::array<double, 3> q{};
     double sign = 1;
     for (const char *g = geometry; *g; g++) {
-        auto has = [&](char letter) { return respect_offsets && respect_coordinates.find(letter) != std::string::npos; };
-        double ox = respect_offsets ? rot_offsets[0] : 0, oy = respect_offsets ? rot_offsets[1] : 0, oz = respect_offsets ? rot_offsets[2] : 0;
+        auto has = [&](char letter) {
+            return respect_offsets && respect_coordinates.find(letter) != std::string::npos;
+        };
+        double ox = respect_offsets ? rot_offsets[0] : 0, oy = respect_offsets ? rot_offsets[1] : 0,
+               oz = respect_offsets ? rot_offsets[2] : 0;
         switch (toupper(static_cast<unsigned char>(*g))) {
         case '-': sign = -1; continue;
         case 'X': q[0] += p[0] * sign; break;
@@ -57,9 +60,30 @@ std::array<double, 3> vertex(const std::array<double, 9> &p, const char *geometr
         case 'U': q[0] += p[6] * sign; break;
         case 'V': q[1] += p[7] * sign; break;
         case 'W': q[2] += p[8] * sign; break;
-        case 'A': if (respect_offsets && !has('A')) break; q[1] -= oy; q[2] -= oz; turn(q[1], q[2], p[3] * sign); q[1] += oy; q[2] += oz; break;
-        case 'B': if (respect_offsets && !has('B')) break; q[2] -= oz; q[0] -= ox; turn(q[0], q[2], p[4] * sign); q[2] += oz; q[0] += ox; break;
-        case 'C': if (respect_offsets && !has('C')) break; q[0] -= ox; q[1] -= oy; turn(q[0], q[1], p[5] * sign); q[0] += ox; q[1] += oy; break;
+        case 'A':
+            if (respect_offsets && !has('A')) break;
+            q[1] -= oy;
+            q[2] -= oz;
+            turn(q[1], q[2], p[3] * sign);
+            q[1] += oy;
+            q[2] += oz;
+            break;
+        case 'B':
+            if (respect_offsets && !has('B')) break;
+            q[2] -= oz;
+            q[0] -= ox;
+            turn(q[0], q[2], p[4] * sign);
+            q[2] += oz;
+            q[0] += ox;
+            break;
+        case 'C':
+            if (respect_offsets && !has('C')) break;
+            q[0] -= ox;
+            q[1] -= oy;
+            turn(q[0], q[1], p[5] * sign);
+            q[0] += ox;
+            q[1] += oy;
+            break;
         default: break;
         }
         sign = 1;
@@ -106,7 +130,8 @@ public:
     py::tuple points() {
         std::lock_guard<std::mutex> hold(guard_);
         drawn_ = points_.size();
-        return py::make_tuple(py::bytes(reinterpret_cast<const char *>(points_.data()), points_.size() * sizeof(Point)), points_.size(), is_xyuv_ ? 1 : 0);
+        return py::make_tuple(py::bytes(reinterpret_cast<const char *>(points_.data()), points_.size() * sizeof(Point)),
+                              points_.size(), is_xyuv_ ? 1 : 0);
     }
 
     py::object last(int flag) const {
@@ -136,7 +161,8 @@ private:
 
     void add(const EMC_STAT &s) {
         const EmcPose &p = s.motion.traj.position, &t = s.task.toolOffset;
-        std::array<double, 9> q{p.tran.x - t.tran.x, p.tran.y - t.tran.y, p.tran.z - t.tran.z, p.a - t.a, p.b - t.b, p.c - t.c, p.u - t.u, p.v - t.v, p.w - t.w};
+        std::array<double, 9> q{p.tran.x - t.tran.x, p.tran.y - t.tran.y, p.tran.z - t.tran.z, p.a - t.a, p.b - t.b,
+                                p.c - t.c,           p.u - t.u,           p.v - t.v,           p.w - t.w};
         int kind = s.motion.traj.motion_type;
         if (kind < 0 || kind > 5) kind = 0;
         std::lock_guard<std::mutex> hold(guard_);
@@ -178,8 +204,10 @@ private:
         bool keep = false;
         if (count >= 2) {
             const Point &before = points_[count - 2];
-            keep = !straight(end.x - before.x, end.y - before.y, end.z - before.z, n.x - end.x, n.y - end.y, n.z - end.z) ||
-                   !straight(end.rx - before.rx, end.ry - before.ry, end.rz - before.rz, n.rx - end.rx, n.ry - end.ry, n.rz - end.rz);
+            keep = !straight(end.x - before.x, end.y - before.y, end.z - before.z, n.x - end.x, n.y - end.y,
+                             n.z - end.z) ||
+                   !straight(end.rx - before.rx, end.ry - before.ry, end.rz - before.rz, n.rx - end.rx, n.ry - end.ry,
+                             n.rz - end.rz);
             if (is_xyuv_) {
                 double dx = n.x - before.x, dy = n.y - before.y;
                 keep = keep || dx * dx + dy * dy > 0.01;
@@ -209,7 +237,8 @@ private:
 Color color_of(const py::handle &h) {
     py::tuple t = py::reinterpret_borrow<py::object>(h);
     if (t.size() != 4) throw py::type_error("a color has four numbers from 0 to 255");
-    return {t[0].cast<unsigned char>(), t[1].cast<unsigned char>(), t[2].cast<unsigned char>(), t[3].cast<unsigned char>()};
+    return {t[0].cast<unsigned char>(), t[1].cast<unsigned char>(), t[2].cast<unsigned char>(),
+            t[3].cast<unsigned char>()};
 }
 
 void deprecated(const char *text) {
@@ -235,12 +264,17 @@ std::array<double, 9> nine(const py::object &o) {
 
 void define_positionlogger(py::module_ &m) {
     py::class_<PositionLogger> cls(m, "positionlogger", py::dynamic_attr(), "Records the path of the tool");
-    cls.def(py::init([](py::object stat, const py::object &c0, const py::object &c1, const py::object &c2, const py::object &c3, const py::object &c4,
-                        const py::object &c5, const std::string &geometry, int is_xyuv) {
-            if (!py::isinstance<Stat>(stat)) throw py::type_error("the first argument must be a linuxcnc.stat");
-            return std::make_unique<PositionLogger>(stat, std::array<Color, 6>{color_of(c0), color_of(c1), color_of(c2), color_of(c3), color_of(c4), color_of(c5)},
-                                                    geometry, is_xyuv != 0);
-        }), py::arg("stat"), py::arg("c0"), py::arg("c1"), py::arg("c2"), py::arg("c3"), py::arg("c4"), py::arg("c5"), py::arg("geometry"), py::arg("is_xyuv") = 0);
+    cls.def(py::init([](py::object stat, const py::object &c0, const py::object &c1, const py::object &c2,
+                        const py::object &c3, const py::object &c4, const py::object &c5, const std::string &geometry,
+                        int is_xyuv) {
+                if (!py::isinstance<Stat>(stat)) throw py::type_error("the first argument must be a linuxcnc.stat");
+                return std::make_unique<PositionLogger>(stat,
+                                                        std::array<Color, 6>{color_of(c0), color_of(c1), color_of(c2),
+                                                                             color_of(c3), color_of(c4), color_of(c5)},
+                                                        geometry, is_xyuv != 0);
+            }),
+            py::arg("stat"), py::arg("c0"), py::arg("c1"), py::arg("c2"), py::arg("c3"), py::arg("c4"), py::arg("c5"),
+            py::arg("geometry"), py::arg("is_xyuv") = 0);
     cls.def("start", &PositionLogger::start, "Records every `interval` seconds until stop(); run it in a thread");
     cls.def("stop", &PositionLogger::stop);
     cls.def("clear", &PositionLogger::clear);
@@ -248,10 +282,13 @@ void define_positionlogger(py::module_ &m) {
     cls.def("last", &PositionLogger::last, py::arg("flag") = 1);
     cls.def("points", &PositionLogger::points, "(bytes, number, is_xyuv): records x y z rgba rx ry rz rgba");
     cls.def("set_depth", &PositionLogger::set_depth);
-    cls.def("set_colors", [](PositionLogger &p, const py::object &c0, const py::object &c1, const py::object &c2, const py::object &c3, const py::object &c4,
-                             const py::object &c5) { p.set_colors({color_of(c0), color_of(c1), color_of(c2), color_of(c3), color_of(c4), color_of(c5)}); });
+    cls.def("set_colors", [](PositionLogger &p, const py::object &c0, const py::object &c1, const py::object &c2,
+                             const py::object &c3, const py::object &c4, const py::object &c5) {
+        p.set_colors({color_of(c0), color_of(c1), color_of(c2), color_of(c3), color_of(c4), color_of(c5)});
+    });
     cls.def("get_colors", &PositionLogger::get_colors);
-    cls.def("call", [](PositionLogger &) { deprecated("positionlogger.call() no longer draws; use positionlogger.points()"); });
+    cls.def("call",
+            [](PositionLogger &) { deprecated("positionlogger.call() no longer draws; use positionlogger.points()"); });
 
     m.def("vertex9", [](const std::string &geometry, const py::object &p) {
         std::array<double, 3> v = vertex(nine(p), geometry.c_str());
@@ -263,8 +300,15 @@ void define_positionlogger(py::module_ &m) {
         for (char &c : respect_coordinates) c = static_cast<char>(toupper(static_cast<unsigned char>(c)));
         respect_offsets = flag != 0;
     });
-    m.def("line9", [](const std::string &, const py::object &a, const py::object &b) { nine(a); nine(b); no_drawing("line9"); });
-    m.def("draw_lines", [](const std::string &, const py::list &, int) { no_drawing("draw_lines"); }, py::arg("geometry"), py::arg("lines"), py::arg("for_selection") = 0);
-    m.def("draw_dwells", [](const std::string &, const py::list &, double, int, int) { no_drawing("draw_dwells"); }, py::arg("geometry"), py::arg("dwells"), py::arg("alpha"),
-          py::arg("for_selection"), py::arg("is_lathe"));
+    m.def("line9", [](const std::string &, const py::object &a, const py::object &b) {
+        nine(a);
+        nine(b);
+        no_drawing("line9");
+    });
+    m.def(
+        "draw_lines", [](const std::string &, const py::list &, int) { no_drawing("draw_lines"); }, py::arg("geometry"),
+        py::arg("lines"), py::arg("for_selection") = 0);
+    m.def(
+        "draw_dwells", [](const std::string &, const py::list &, double, int, int) { no_drawing("draw_dwells"); },
+        py::arg("geometry"), py::arg("dwells"), py::arg("alpha"), py::arg("for_selection"), py::arg("is_lathe"));
 }

@@ -46,9 +46,11 @@ static bool number_of(const char *what, const char *text, long low, long high, i
 int main(int argc, char **argv) {
     rsh::Options o;
     if (const char *home = getenv("HOME")) o.path = std::string(home) + "/nc_files";
-    static const option longs[] = {{"help", 0, nullptr, 'h'}, {"port", 1, nullptr, 'p'}, {"name", 1, nullptr, 'n'}, {"connectpw", 1, nullptr, 'w'},
-        {"enablepw", 1, nullptr, 'e'}, {"sessions", 1, nullptr, 's'}, {"path", 1, nullptr, 'd'}, {"quiet", 0, nullptr, 'q'}, {"ipv4", 0, nullptr, '4'}, {"bind", 1, nullptr, 'b'},
-        {nullptr, 0, nullptr, 0}};
+    static const option longs[] = {
+        {"help", 0, nullptr, 'h'},      {"port", 1, nullptr, 'p'},     {"name", 1, nullptr, 'n'},
+        {"connectpw", 1, nullptr, 'w'}, {"enablepw", 1, nullptr, 'e'}, {"sessions", 1, nullptr, 's'},
+        {"path", 1, nullptr, 'd'},      {"quiet", 0, nullptr, 'q'},    {"ipv4", 0, nullptr, '4'},
+        {"bind", 1, nullptr, 'b'},      {nullptr, 0, nullptr, 0}};
     int c;
     while ((c = getopt_long(argc, argv, "+hp:n:w:e:s:d:q4b:", longs, nullptr)) != -1) {
         switch (c) {

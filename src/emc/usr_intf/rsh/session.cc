@@ -65,7 +65,8 @@ static std::string from_word(const std::string &line, int n) {
 
 // ---- session ----
 
-Session::Session(Server &server, int f, bool neighbour) : fd(f), client("Default-" + std::to_string(f)), server_(server), neighbour_(neighbour) {}
+Session::Session(Server &server, int f, bool neighbour)
+    : fd(f), client("Default-" + std::to_string(f)), server_(server), neighbour_(neighbour) {}
 
 std::string Session::new_challenge() { return challenge_ = nml::to_hex(nml::random_bytes(16)); }
 
@@ -180,7 +181,8 @@ void Session::get(const Words &w, const std::string &) {
     Words args(w.begin() + 2, w.end());
     std::string name = s->name;
     if (static_cast<int>(args.size()) < s->get_args) {
-        error("Too few arguments to GET " + name + ", have " + std::to_string(args.size()) + ", need " + std::to_string(s->get_args) + " or more");
+        error("Too few arguments to GET " + name + ", have " + std::to_string(args.size()) + ", need " +
+              std::to_string(s->get_args) + " or more");
         return reply("GET " + name + " NAK");
     }
     if (!s->get || !s->get(*this, server_, args)) reply("GET " + name + " NAK");
@@ -198,16 +200,19 @@ void Session::set(const Words &w, const std::string &line) {
     if (s->remote)
         for (auto &other : server_.sessions)
             if (other.second->holds_others_up())
-                return error("Cannot issue SET " + name + " command while SET " + other.second->waiting_for()->name + " command is still active");
+                return error("Cannot issue SET " + name + " command while SET " + other.second->waiting_for()->name +
+                             " command is still active");
     auto nak = [&](const std::string &text) {
         error(text);
         reply("SET " + name + " NAK");
     };
     if (static_cast<int>(args.size()) < s->set_args)
-        return nak("Too few arguments to SET " + name + ", have " + std::to_string(args.size()) + ", need " + std::to_string(s->set_args) + " or more");
+        return nak("Too few arguments to SET " + name + ", have " + std::to_string(args.size()) + ", need " +
+                   std::to_string(s->set_args) + " or more");
     if (s->level >= Level::hello && !linked) return nak("A HELLO must be successfully negotiated for SET " + name);
     if (s->level >= Level::enable && !enabled) return nak("Connection must be enabled for SET " + name);
-    if (s->level == Level::on && server_.stat.task.state != EMC_TASK_STATE_ON) return nak("Machine must be 'ON' for SET " + name);
+    if (s->level == Level::on && server_.stat.task.state != EMC_TASK_STATE_ON)
+        return nak("Machine must be 'ON' for SET " + name);
     int before = server_.client->serial();
     Result r = s->set ? s->set(*this, server_, args, from_word(line, 2)) : Result::failed;
     if (server_.client->serial() != before) serial_ = server_.client->serial();
@@ -255,18 +260,25 @@ void Session::poll_waiting() {
 void Session::help(const Words &w) {
     std::string what = w.size() > 1 ? upper(w[1]) : "";
     auto list = [&](bool set) {
-        static const struct { Level level; const char *title; } groups[] = {{Level::none, "Always:"}, {Level::hello, "After HELLO:"},
-            {Level::enable, "After SET ENABLE:"}, {Level::on, "With the machine on:"}};
+        static const struct {
+            Level level;
+            const char *title;
+        } groups[] = {{Level::none, "Always:"},
+                      {Level::hello, "After HELLO:"},
+                      {Level::enable, "After SET ENABLE:"},
+                      {Level::on, "With the machine on:"}};
         for (auto &g : groups) {
             if (set) reply(std::string("  ") + g.title);
             for (const Subcommand &s : subcommands())
-                if (s.level == g.level && (set ? s.set != nullptr : s.get != nullptr)) reply(std::string("    ") + s.name + (*s.usage ? std::string(" ") + s.usage : ""));
+                if (s.level == g.level && (set ? s.set != nullptr : s.get != nullptr))
+                    reply(std::string("    ") + s.name + (*s.usage ? std::string(" ") + s.usage : ""));
         }
     };
     if (what.empty()) {
         reply("Commands:");
-        for (const char *t : {"  HELLO <password> <client> [version]", "  GET <subcommand> [arguments]", "  SET <subcommand> [arguments]", "  QUIT", "  SHUTDOWN",
-                              "  HELP [command]"}) reply(t);
+        for (const char *t : {"  HELLO <password> <client> [version]", "  GET <subcommand> [arguments]",
+                              "  SET <subcommand> [arguments]", "  QUIT", "  SHUTDOWN", "  HELP [command]"})
+            reply(t);
     } else if (what == "HELLO") {
         reply("HELLO <password> <client> [version]");
         reply("  Links this connection; needed for most SET commands.");
@@ -311,7 +323,9 @@ void Server::read_messages() {
         case NML_DISPLAY_TYPE: operator_display.emplace_back(errors->get<NML_DISPLAY>()->display); break;
         case EMC_OPERATOR_ERROR_TYPE: error_text.emplace_back(errors->get<EMC_OPERATOR_ERROR>()->error); break;
         case EMC_OPERATOR_TEXT_TYPE: operator_text.emplace_back(errors->get<EMC_OPERATOR_TEXT>()->text); break;
-        case EMC_OPERATOR_DISPLAY_TYPE: operator_display.emplace_back(errors->get<EMC_OPERATOR_DISPLAY>()->display); break;
+        case EMC_OPERATOR_DISPLAY_TYPE:
+            operator_display.emplace_back(errors->get<EMC_OPERATOR_DISPLAY>()->display);
+            break;
         default: return;
         }
     }
@@ -340,7 +354,8 @@ bool Server::open_port(int family, const char *address) {
     }
     if (known != 1 || bind(fd, at, size) != 0 || listen(fd, 16) != 0) {
         if (family == AF_INET || !options.bind.empty())
-            fprintf(stderr, "linuxcncrsh: %s port %d: %s\n", address, options.port, known == 1 ? strerror(errno) : "not an address");
+            fprintf(stderr, "linuxcncrsh: %s port %d: %s\n", address, options.port,
+                    known == 1 ? strerror(errno) : "not an address");
         close(fd);
         return false;
     }
@@ -368,7 +383,8 @@ bool Server::start() {
         kerf_clock_sleep_ns(1000 * MS);
     }
     // Other computers are let in on purpose only, and not with the passwords that everybody knows.
-    if (!options.bind.empty() && (options.connect_password == Options().connect_password || options.enable_password == Options().enable_password)) {
+    if (!options.bind.empty() && (options.connect_password == Options().connect_password ||
+                                  options.enable_password == Options().enable_password)) {
         fprintf(stderr, "linuxcncrsh: --bind needs passwords of your own: --connectpw and --enablepw\n");
         return false;
     }
@@ -395,7 +411,8 @@ void Server::run(const volatile int *stop) {
             short events = 0;
             if (!s.second->input_ended && s.second->lines_waiting() < MAX_LINES) events |= POLLIN | POLLPRI;
             if (!s.second->output.empty()) events |= POLLOUT;
-            fds.push_back({events ? s.first : -1, events, 0}); // one that has ended its input and gets nothing has no news
+            fds.push_back(
+                {events ? s.first : -1, events, 0}); // one that has ended its input and gets nothing has no news
             ids.push_back(s.first);
             if (s.second->waiting()) timeout = std::min(timeout, std::max<int64_t>(0, s.second->next_poll_ns() - now));
             else if (s.second->has_line()) timeout = 0;
@@ -417,13 +434,15 @@ void Server::run(const volatile int *stop) {
             if (!(fds[l].revents & POLLIN)) continue;
             sockaddr_in6 from{};
             socklen_t from_size = sizeof from;
-            int fd = accept4(listeners_[l], reinterpret_cast<sockaddr *>(&from), &from_size, SOCK_CLOEXEC | SOCK_NONBLOCK);
+            int fd =
+                accept4(listeners_[l], reinterpret_cast<sockaddr *>(&from), &from_size, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (fd >= 0 && options.sessions > 0 && static_cast<int>(sessions.size()) >= options.sessions) {
                 close(fd);
             } else if (fd >= 0) {
                 int one = 1;
                 setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
-                sessions[fd] = std::make_unique<Session>(*this, fd, nml::is_loopback(reinterpret_cast<sockaddr *>(&from)));
+                sessions[fd] =
+                    std::make_unique<Session>(*this, fd, nml::is_loopback(reinterpret_cast<sockaddr *>(&from)));
             }
         }
         for (auto &it : sessions) {

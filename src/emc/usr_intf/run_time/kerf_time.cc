@@ -25,11 +25,12 @@ namespace {
 constexpr double STEP_S = 0.2;
 constexpr int LINES = 100;          // read at a time
 
-const char USAGE[] = "usage: kerf-time -ini FILE [-f FEED] [-r RAPID] [-s SPINDLE] [-v MAX_VELOCITY] [-t TOOL_CHANGE_S]\n"
-                     "       [-a S_PER_RPM] [-u USER_CODE_S] [-c CPU_SECONDS] [-i CODE]... [-b 0|1] PROGRAM\n"
-                     "Prints how long PROGRAM will run on the running machine. FEED, RAPID, SPINDLE: overrides, 1 = 100 %.\n"
-                     "-i: a line that is executed before and does not count. \n"
-                     "-a: what a spindle takes to change its speed. -b: lines with '/' are left out (1, default) or not.\n";
+const char USAGE[] =
+    "usage: kerf-time -ini FILE [-f FEED] [-r RAPID] [-s SPINDLE] [-v MAX_VELOCITY] [-t TOOL_CHANGE_S]\n"
+    "       [-a S_PER_RPM] [-u USER_CODE_S] [-c CPU_SECONDS] [-i CODE]... [-b 0|1] PROGRAM\n"
+    "Prints how long PROGRAM will run on the running machine. FEED, RAPID, SPINDLE: overrides, 1 = 100 %.\n"
+    "-i: a line that is executed before and does not count. \n"
+    "-a: what a spindle takes to change its speed. -b: lines with '/' are left out (1, default) or not.\n";
 
 struct Options {
     std::string ini, program;
@@ -97,7 +98,8 @@ void wire(TaskCanon &canon) {
 }
 
 // What the lines before the program leave, as the planner and the interpreter of the program start with it.
-bool prepare(Interp &interp, TaskCanon &canon, InterpList &list, RunTime &time, const Options &o, const InterpOptions &how) {
+bool prepare(Interp &interp, TaskCanon &canon, InterpList &list, RunTime &time, const Options &o,
+             const InterpOptions &how) {
     interp.keep_parameters(false);
     int r = interp.init(how);
     for (size_t i = 0; i < o.init.size() && r <= INTERP_MIN_ERROR; i++) r = interp.execute(o.init[i].c_str());

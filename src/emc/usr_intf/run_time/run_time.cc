@@ -68,7 +68,8 @@ void read_joints(const linuxcnc::IniFile &ini, Paper &p) {
         const int n = p.joints++;
         const std::string section = "JOINT_" + std::to_string(n);
         p.axis_of[n] = static_cast<int>(letter - AXES);
-        const double share = ini.findRealV("BACKLASH", section, 0) != 0 || ini.findString("COMP_FILE", section) ? 0.9 : 1;
+        const double share =
+            ini.findRealV("BACKLASH", section, 0) != 0 || ini.findString("COMP_FILE", section) ? 0.9 : 1;
         p.joint_v[n] = ini.findRealV("MAX_VELOCITY", section, 1);
         p.joint_a[n] = share * ini.findRealV("MAX_ACCELERATION", section, 1);
         p.joint_j[n] = share * ini.findRealV("MAX_JERK", section, 0);
@@ -98,7 +99,8 @@ struct RunTime::Planner : Paper {
     ~Planner() { std::free(tp.impl); }
 };
 
-RunTime::RunTime(const EMC_STAT &stat, const linuxcnc::IniFile &ini, const Rates &rates) : planner_(std::make_unique<Planner>()), rates_(rates) {
+RunTime::RunTime(const EMC_STAT &stat, const linuxcnc::IniFile &ini, const Rates &rates)
+    : planner_(std::make_unique<Planner>()), rates_(rates) {
     Planner &p = *planner_;
     paper = &p;
     p.limits = axis_limits(ini);
@@ -144,7 +146,8 @@ void RunTime::spindle(int which, double speed, double factor, double xoffset) {
         if (which >= 0 && which != n) continue;
         spindle_status_t &s = planner_->status.spindle_status[n];
         if (speed != 0 && speed != s.speed) waits_.spindle_starts++;
-        planner_->at_speed_s[n] = std::max(seconds_, planner_->at_speed_s[n]) + std::fabs(speed - s.speed) * rates_.s_per_rpm;
+        planner_->at_speed_s[n] =
+            std::max(seconds_, planner_->at_speed_s[n]) + std::fabs(speed - s.speed) * rates_.s_per_rpm;
         s.speed = speed;
         s.state = speed != 0;
         s.rests = 0;
@@ -215,7 +218,8 @@ void RunTime::stop_and_wait(double seconds) {
 // Whether a move waits for the spindles, as motion decides it.
 int RunTime::take_at_speed(int type) {
     int &next = planner_->status.atspeed_next_feed;
-    const int waits = type == EMC_MOTION_TYPE_FEED || type == EMC_MOTION_TYPE_ARC || type == EMC_MOTION_TYPE_PROBING ? next : 0;
+    const int waits =
+        type == EMC_MOTION_TYPE_FEED || type == EMC_MOTION_TYPE_ARC || type == EMC_MOTION_TYPE_PROBING ? next : 0;
     next = waits ? 0 : next;
     return waits;
 }
@@ -234,14 +238,16 @@ void RunTime::move(int line, const NMLmsg &m) {
     int r = 0;
     if (m._type == EMC_TRAJ_LINEAR_MOVE_TYPE) {
         const auto &l = as<EMC_TRAJ_LINEAR_MOVE>(m);
-        r = tpAddLine(&p.tp, l.end, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables, static_cast<char>(take_at_speed(l.type)), -1, l.tag);
+        r = tpAddLine(&p.tp, l.end, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables,
+                      static_cast<char>(take_at_speed(l.type)), -1, l.tag);
     } else if (m._type == EMC_TRAJ_CIRCULAR_MOVE_TYPE) {
         const auto &c = as<EMC_TRAJ_CIRCULAR_MOVE>(m);
-        r = tpAddCircle(&p.tp, c.end, c.center, c.normal, c.turn, c.type, c.vel, c.ini_maxvel, c.acc, c.ini_maxjerk, enables,
-                        static_cast<char>(take_at_speed(c.type)), c.tag);
+        r = tpAddCircle(&p.tp, c.end, c.center, c.normal, c.turn, c.type, c.vel, c.ini_maxvel, c.acc, c.ini_maxjerk,
+                        enables, static_cast<char>(take_at_speed(c.type)), c.tag);
     } else if (m._type == EMC_TRAJ_PROBE_TYPE) {
         const auto &l = as<EMC_TRAJ_PROBE>(m);
-        r = tpAddLine(&p.tp, l.pos, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables, static_cast<char>(take_at_speed(l.type)), -1, l.tag);
+        r = tpAddLine(&p.tp, l.pos, l.type, l.vel, l.ini_maxvel, l.acc, l.ini_maxjerk, enables,
+                      static_cast<char>(take_at_speed(l.type)), -1, l.tag);
     } else {
         const auto &t = as<EMC_TRAJ_RIGID_TAP>(m);
         r = tpAddRigidTap(&p.tp, t.pos, t.vel, t.ini_maxvel, t.acc, t.ini_maxjerk, enables, t.scale, t.tag);
@@ -256,7 +262,9 @@ void RunTime::take(const InterpList::Entry *order) {
     const NMLmsg &m = *order->message;
     Planner &p = *planner_;
     emcmot_status_t &s = p.status;
-    auto flag = [&](unsigned char bit, int on) { s.enables_new = static_cast<unsigned char>(on ? s.enables_new | bit : s.enables_new & ~bit); };
+    auto flag = [&](unsigned char bit, int on) {
+        s.enables_new = static_cast<unsigned char>(on ? s.enables_new | bit : s.enables_new & ~bit);
+    };
     auto coolant = [&](int &is, int wanted) {
         if (is != wanted) stop_and_wait(0);
         is = wanted;
@@ -269,7 +277,9 @@ void RunTime::take(const InterpList::Entry *order) {
         stop_and_wait(0);
         move(order->line, m);
         return stop_and_wait(0);
-    case EMC_TRAJ_SET_VELOCITY_TYPE: tpSetVmax(&p.tp, as<EMC_TRAJ_SET_VELOCITY>(m).velocity, as<EMC_TRAJ_SET_VELOCITY>(m).ini_maxvel); return;
+    case EMC_TRAJ_SET_VELOCITY_TYPE:
+        tpSetVmax(&p.tp, as<EMC_TRAJ_SET_VELOCITY>(m).velocity, as<EMC_TRAJ_SET_VELOCITY>(m).ini_maxvel);
+        return;
     case EMC_TRAJ_SET_TERM_COND_TYPE:
         {
             const auto &c = as<EMC_TRAJ_SET_TERM_COND>(m);

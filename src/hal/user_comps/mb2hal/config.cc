@@ -21,11 +21,14 @@ constexpr const char *INIT = "MB2HAL_INIT";
 constexpr size_t MAX_IP = 16, MAX_DEVICE = 127;
 
 struct Name { const char *text; Code code; bool new_only; };
-constexpr Name CODES[] = {
-    {"fnct_01_read_coils", Code::read_coils, true}, {"fnct_02_read_discrete_inputs", Code::read_inputs, false}, {"fnct_03_read_holding_registers", Code::read_holding, false},
-    {"fnct_04_read_input_registers", Code::read_input_registers, false}, {"fnct_05_write_single_coil", Code::write_coil, true},
-    {"fnct_06_write_single_register", Code::write_register, false}, {"fnct_15_write_multiple_coils", Code::write_coils, false},
-    {"fnct_16_write_multiple_registers", Code::write_registers, false}};
+constexpr Name CODES[] = {{"fnct_01_read_coils", Code::read_coils, true},
+                          {"fnct_02_read_discrete_inputs", Code::read_inputs, false},
+                          {"fnct_03_read_holding_registers", Code::read_holding, false},
+                          {"fnct_04_read_input_registers", Code::read_input_registers, false},
+                          {"fnct_05_write_single_coil", Code::write_coil, true},
+                          {"fnct_06_write_single_register", Code::write_register, false},
+                          {"fnct_15_write_multiple_coils", Code::write_coils, false},
+                          {"fnct_16_write_multiple_registers", Code::write_registers, false}};
 
 bool same(const std::string &a, const char *b) { return strcasecmp(a.c_str(), b) == 0; }
 
@@ -51,13 +54,15 @@ private:
     }
 
     bool missing(const std::string &keys, const char *why = "") {
-        say(config_, 1, config_.debug, "parse_transaction_section", "required [" + section_ + "] " + keys + " not found" + why);
+        say(config_, 1, config_.debug, "parse_transaction_section",
+            "required [" + section_ + "] " + keys + " not found" + why);
         return false;
     }
 
     std::optional<std::string> text(const char *key) { return ini_.findString(key, section_); }
 
-    /// A setting that the transaction before gives when it is missing. The first has no one before it, nor has one of another link type.
+    /// A setting that the transaction before gives when it is missing. The first has no one before it, nor has one
+    /// of another link type.
     template <class T> bool inherited(const char *key, std::optional<T> found, T &value) {
         if (found) value = *found;
         else if (!inherits_) return missing(std::string("[") + key + "]", ", and previous LINK_TYPE is useless");
@@ -71,7 +76,8 @@ private:
         }
         auto found = ini_.findInt(key, section_);
         if (!found || *found < low || *found > high)
-            return fail(std::string(key) + " = " + ini_.findString(key, section_).value_or("") + ": must be a number from " + std::to_string(low) + " to " + std::to_string(high));
+            return fail(std::string(key) + " = " + ini_.findString(key, section_).value_or("") +
+                        ": must be a number from " + std::to_string(low) + " to " + std::to_string(high));
         value = *found;
         return true;
     }
@@ -100,16 +106,20 @@ private:
 
     bool tcp(Link &l) {
         if (!inherited<std::string>("TCP_IP", text("TCP_IP"), l.ip)) return false;
-        if (l.ip.size() > MAX_IP) return fail("TCP_IP = " + l.ip + ": more than " + std::to_string(MAX_IP) + " characters");
+        if (l.ip.size() > MAX_IP)
+            return fail("TCP_IP = " + l.ip + ": more than " + std::to_string(MAX_IP) + " characters");
         return number("TCP_PORT", l.port, 1, 65535, false);
     }
 
     bool serial(Link &l) {
         if (!inherited<std::string>("SERIAL_PORT", text("SERIAL_PORT"), l.device)) return false;
-        if (l.device.size() > MAX_DEVICE) return fail("SERIAL_PORT: more than " + std::to_string(MAX_DEVICE) + " characters");
+        if (l.device.size() > MAX_DEVICE)
+            return fail("SERIAL_PORT: more than " + std::to_string(MAX_DEVICE) + " characters");
         std::string parity = l.parity == 'E' ? "even" : l.parity == 'O' ? "odd" : "none";
         if (!number("SERIAL_BAUD", l.baud, 1, 10000000, true) || !number("SERIAL_BITS", l.bits, 5, 8, true) ||
-            !inherited<std::string>("SERIAL_PARITY", text("SERIAL_PARITY"), parity) || !number("SERIAL_STOP", l.stop, 1, 2, true)) return false;
+            !inherited<std::string>("SERIAL_PARITY", text("SERIAL_PARITY"), parity) ||
+            !number("SERIAL_STOP", l.stop, 1, 2, true))
+            return false;
         if (same(parity, "even")) l.parity = 'E';
         else if (same(parity, "odd")) l.parity = 'O';
         else if (same(parity, "none")) l.parity = 'N';
@@ -119,15 +129,18 @@ private:
 
     Link *shared(const Link &l) {
         for (auto &have : config_.links)
-            if (have->tcp == l.tcp && (l.tcp ? have->ip == l.ip && have->port == l.port : have->device == l.device)) return have.get();
+            if (have->tcp == l.tcp && (l.tcp ? have->ip == l.ip && have->port == l.port : have->device == l.device))
+                return have.get();
         config_.links.push_back(std::make_unique<Link>(l));
         return config_.links.back().get();
     }
 
     bool common(Transaction &t) {
-        if (!number("MB_SLAVE_ID", t.slave, 0, 255, true) || !number("SERIAL_DELAY_MS", t.delay_ms, 0, 3600000, false) ||
-            !number("MB_RESPONSE_TIMEOUT_MS", t.response_ms, 0, 3600000, false) || !number("MB_BYTE_TIMEOUT_MS", t.byte_ms, 0, 3600000, false) ||
-            !number("DEBUG", t.debug, 0, 4, false)) return false;
+        if (!number("MB_SLAVE_ID", t.slave, 0, 255, true) ||
+            !number("SERIAL_DELAY_MS", t.delay_ms, 0, 3600000, false) ||
+            !number("MB_RESPONSE_TIMEOUT_MS", t.response_ms, 0, 3600000, false) ||
+            !number("MB_BYTE_TIMEOUT_MS", t.byte_ms, 0, 3600000, false) || !number("DEBUG", t.debug, 0, 4, false))
+            return false;
         if (ini_.isSet("MAX_UPDATE_RATE", section_)) {
             auto rate = ini_.findReal("MAX_UPDATE_RATE", section_, 0.0);
             if (!rate || !std::isfinite(*rate)) return fail("MAX_UPDATE_RATE: must be a number from 0 (Hz)");
@@ -141,7 +154,8 @@ private:
         if (!word) return missing("[MB_TX_CODE]");
         for (const Name &n : CODES) {
             if (!same(*word, n.text)) continue;
-            if (n.new_only && !config_.names_kinds()) return fail("MB_TX_CODE = " + *word + ": out of range, needs [" + INIT + "] VERSION = 1.1");
+            if (n.new_only && !config_.names_kinds())
+                return fail("MB_TX_CODE = " + *word + ": out of range, needs [" + INIT + "] VERSION = 1.1");
             t.code = n.code;
             return true;
         }
@@ -153,7 +167,8 @@ private:
         if (!number("FIRST_ELEMENT", t.first, 0, 65535, false)) return false;
         std::vector<std::string> names = split(text("PIN_NAMES").value_or(""));
         int count = static_cast<int>(names.size());
-        if (!names.empty() && std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); })) return fail("PIN_NAMES: an empty name");
+        if (!names.empty() && std::any_of(names.begin(), names.end(), [](const std::string &n) { return n.empty(); }))
+            return fail("PIN_NAMES: an empty name");
         if (!ini_.isSet("NELEMENTS", section_)) {
             if (names.empty()) return missing("[NELEMENTS] or [PIN_NAMES]");
         } else if (!number("NELEMENTS", count, 1, 65536, false)) {
@@ -173,7 +188,8 @@ private:
         std::vector<std::string> parts;
         if (list.empty()) return parts;
         size_t at = 0;
-        for (size_t comma; (comma = list.find(',', at)) != std::string::npos; at = comma + 1) parts.push_back(list.substr(at, comma - at));
+        for (size_t comma; (comma = list.find(',', at)) != std::string::npos; at = comma + 1)
+            parts.push_back(list.substr(at, comma - at));
         parts.push_back(list.substr(at));
         for (auto &p : parts) {
             p.erase(0, std::min(p.size(), p.find_first_not_of(" \t")));
@@ -202,7 +218,9 @@ private:
 std::optional<int> version_of(const std::string &text) {
     int major = 0, minor = 0;
     char rest;
-    if (sscanf(text.c_str(), "%d.%d%c", &major, &minor, &rest) != 2 || major < 0 || major > 1000 || minor < 0 || minor > 999) return std::nullopt;
+    if (sscanf(text.c_str(), "%d.%d%c", &major, &minor, &rest) != 2 || major < 0 || major > 1000 || minor < 0 ||
+        minor > 999)
+        return std::nullopt;
     return major * 1000 + minor;
 }
 
@@ -230,7 +248,8 @@ bool read_config(const std::string &path, Config &config) {
     config.version = *version;
     if (ini.isSet("SLOWDOWN", INIT)) {
         auto slowdown = ini.findReal("SLOWDOWN", INIT, 0.0);
-        if (!slowdown || !std::isfinite(*slowdown)) return fail(std::string("[") + INIT + "] SLOWDOWN must be a number of seconds from 0");
+        if (!slowdown || !std::isfinite(*slowdown))
+            return fail(std::string("[") + INIT + "] SLOWDOWN must be a number of seconds from 0");
         config.slowdown_s = *slowdown;
     }
     int total = ini.findIntV("TOTAL_TRANSACTIONS", INIT, 0);

@@ -14,7 +14,16 @@
 
 namespace mb2hal {
 
-enum class Code { read_coils = 1, read_inputs = 2, read_holding = 3, read_input_registers = 4, write_coil = 5, write_register = 6, write_coils = 15, write_registers = 16 };
+enum class Code {
+    read_coils = 1,
+    read_inputs = 2,
+    read_holding = 3,
+    read_input_registers = 4,
+    write_coil = 5,
+    write_register = 6,
+    write_coils = 15,
+    write_registers = 16
+};
 
 /// A serial line or a TCP peer; transactions of one link run one after the other.
 struct Link {

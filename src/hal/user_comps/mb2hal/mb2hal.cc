@@ -46,7 +46,9 @@ public:
     }
 
 private:
-    template <class T> bool pin(T **&at, hal_pin_dir_t dir, const std::string &name, int (*make)(hal_pin_dir_t, T **, int, const char *, ...)) {
+    template <class T>
+    bool pin(T **&at, hal_pin_dir_t dir, const std::string &name,
+             int (*make)(hal_pin_dir_t, T **, int, const char *, ...)) {
         at = static_cast<T **>(hal_malloc(sizeof(T *)));
         return at && make(dir, at, component_, "%s", name.c_str()) == 0;
     }
@@ -55,14 +57,19 @@ private:
         bool new_names = config_.names_kinds();
         if (reads_bits(code)) {
             if (!new_names) return pin(e.bit, HAL_OUT, base, hal_pin_bit_newf);
-            if (!pin(e.bit, HAL_OUT, base + ".bit", hal_pin_bit_newf) || !pin(e.bit_inverted, HAL_OUT, base + ".bit-inv", hal_pin_bit_newf)) return false;
+            if (!pin(e.bit, HAL_OUT, base + ".bit", hal_pin_bit_newf) ||
+                !pin(e.bit_inverted, HAL_OUT, base + ".bit-inv", hal_pin_bit_newf))
+                return false;
             **e.bit_inverted = true;
             return true;
         }
-        if (reads_registers(code)) return pin(e.value, HAL_OUT, base + ".float", hal_pin_float_newf) && pin(e.integer, HAL_OUT, base + ".int", hal_pin_s32_newf);
+        if (reads_registers(code))
+            return pin(e.value, HAL_OUT, base + ".float", hal_pin_float_newf) &&
+                   pin(e.integer, HAL_OUT, base + ".int", hal_pin_s32_newf);
         if (writes_bits(code)) return pin(e.bit, HAL_IN, new_names ? base + ".bit" : base, hal_pin_bit_newf);
         if (!new_names) return pin(e.value, HAL_IN, base, hal_pin_float_newf);
-        return pin(e.value, HAL_IN, base + ".float", hal_pin_float_newf) && pin(e.integer, HAL_IN, base + ".int", hal_pin_s32_newf);
+        return pin(e.value, HAL_IN, base + ".float", hal_pin_float_newf) &&
+               pin(e.integer, HAL_IN, base + ".int", hal_pin_s32_newf);
     }
 
     Config &config_;
@@ -74,7 +81,8 @@ private:
 /// The register for a float and an integer pin: their sum, at most 65535; negative numbers as 16 bits.
 uint16_t register_of(const Element &e) {
     double value = std::isfinite(**e.value) ? **e.value : 0.0;
-    long long sum = std::llround(std::trunc(std::clamp(value, static_cast<double>(INT_MIN), static_cast<double>(INT_MAX))));
+    long long sum =
+        std::llround(std::trunc(std::clamp(value, static_cast<double>(INT_MIN), static_cast<double>(INT_MAX))));
     if (e.integer) sum += **e.integer;
     return static_cast<uint16_t>(std::min<long long>(sum, 65535));
 }
@@ -121,7 +129,9 @@ bool run(modbus_t *link, Transaction &t) {
 
 using Clock = std::chrono::steady_clock;
 
-Clock::duration duration(double seconds) { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
+Clock::duration duration(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 void pause(double seconds) {
     for (auto end = Clock::now() + duration(seconds); !ending;) {
@@ -180,8 +190,8 @@ private:
         std::string problem = t.name + ": " + modbus_strerror(reason);
         if (problem != t.told) say(config_, 1, t.debug, "link_loop_and_logic", problem); // once, not each time
         t.told = problem;
-        bool gone = reason == EBADF || reason == ECONNRESET || reason == EPIPE || reason == ECONNREFUSED || reason == ENOTCONN || reason == EIO || reason == ENXIO ||
-                    modbus_get_socket(link_.context) < 0;
+        bool gone = reason == EBADF || reason == ECONNRESET || reason == EPIPE || reason == ECONNREFUSED ||
+                    reason == ENOTCONN || reason == EIO || reason == ENXIO || modbus_get_socket(link_.context) < 0;
         if (gone) drop();
         else modbus_flush(link_.context);
         if (link_.tcp && reason == ETIMEDOUT) drop(); // a late answer must not be taken for the next one's
@@ -191,14 +201,17 @@ private:
     void set_timeouts(const Transaction &t) {
         auto seconds = [](int ms) { return static_cast<uint32_t>(ms / 1000); };
         auto micros = [](int ms) { return static_cast<uint32_t>(ms % 1000 * 1000); };
-        if (t.response_ms > 0) modbus_set_response_timeout(link_.context, seconds(t.response_ms), micros(t.response_ms));
+        if (t.response_ms > 0)
+            modbus_set_response_timeout(link_.context, seconds(t.response_ms), micros(t.response_ms));
         modbus_set_byte_timeout(link_.context, seconds(t.byte_ms), micros(t.byte_ms));
     }
 
     bool connect(const Transaction &t) {
         if (link_.connected) return true;
         if (!link_.context)
-            link_.context = link_.tcp ? modbus_new_tcp(link_.ip.c_str(), link_.port) : modbus_new_rtu(link_.device.c_str(), link_.baud, link_.parity, link_.bits, link_.stop);
+            link_.context =
+                link_.tcp ? modbus_new_tcp(link_.ip.c_str(), link_.port)
+                          : modbus_new_rtu(link_.device.c_str(), link_.baud, link_.parity, link_.bits, link_.stop);
         std::string where = link_.tcp ? link_.ip + ":" + std::to_string(link_.port) : link_.device;
         if (link_.context) {
             set_timeouts(t);
@@ -236,7 +249,8 @@ int run_program(int argc, char **argv) {
     Config config;
     std::string argument = argc == 2 ? argv[1] : "";
     if (argument.compare(0, 7, "config=") != 0) {
-        say(config, 1, 1, "parse_main_args", argc == 2 ? "must have config=FILE, not " + argument : "wrong number of args");
+        say(config, 1, 1, "parse_main_args",
+            argc == 2 ? "must have config=FILE, not " + argument : "wrong number of args");
         return -1;
     }
     std::string path = argument.substr(7);

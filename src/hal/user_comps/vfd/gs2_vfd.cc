@@ -39,7 +39,8 @@ struct Options {
 
 struct Pins {
     hal_s32_t *status_1, *status_2, *firmware;
-    hal_float_t *frequency_command, *frequency_out, *current, *dc_volts, *out_volts, *rpm, *scale_frequency, *power_factor, *load;
+    hal_float_t *frequency_command, *frequency_out, *current, *dc_volts, *out_volts, *rpm, *scale_frequency,
+        *power_factor, *load;
     hal_bit_t *at_speed, *is_stopped, *initialized, *on, *fwd, *rev, *err_reset, *enable;
     hal_float_t *speed_command;
     // parameters
@@ -63,28 +64,34 @@ public:
             double loop_s = pins_->loop_time;
             std::this_thread::sleep_for(std::chrono::duration<double>(loop_s > 0.001 ? std::min(loop_s, 2.0) : 0.001));
         }
-        for (int tries = 0; *pins_->initialized && tries < 5 && !write(RUN, 0); tries++) {} // nothing turns on after the program
+        // nothing turns on after the program
+        for (int tries = 0; *pins_->initialized && tries < 5 && !write(RUN, 0);) tries++;
         pins_.exit();
         return 0;
     }
 
 private:
     bool open() {
-        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity, options_.line.bits, options_.line.stop);
+        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity,
+                               options_.line.bits, options_.line.stop);
         if (!link_) {
-            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(), modbus_strerror(errno));
+            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(),
+                    modbus_strerror(errno));
             return false;
         }
         modbus_set_debug(link_, options_.line.debug);
         modbus_set_slave(link_, options_.line.target);
         if (modbus_connect(link_) != 0) {
-            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(), modbus_strerror(errno));
+            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(),
+                    modbus_strerror(errno));
             return false;
         }
         return true;
     }
 
-    bool write(int address, int value) { return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1; }
+    bool write(int address, int value) {
+        return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1;
+    }
 
     void step() {
         Pins &p = *pins_;
@@ -107,15 +114,20 @@ private:
 
     bool configure() {
         bool coast = options_.decel_s <= 0;
-        struct { int address, value; } settings[] = {
-            {ACCEL, static_cast<int>(std::lround(options_.accel_s * 10))}, {STOP_METHOD, coast ? 1 : 0},
-            {DECEL, static_cast<int>(std::lround((coast ? COAST_DECEL_S : options_.decel_s) * 10))}, {STALL_PREVENTION, options_.resistor ? 1 : 0}};
+        struct {
+            int address, value;
+        } settings[] = {{ACCEL, static_cast<int>(std::lround(options_.accel_s * 10))},
+                        {STOP_METHOD, coast ? 1 : 0},
+                        {DECEL, static_cast<int>(std::lround((coast ? COAST_DECEL_S : options_.decel_s) * 10))},
+                        {STALL_PREVENTION, options_.resistor ? 1 : 0}};
         for (auto &s : settings) {
             if (!write(s.address, s.value)) {
                 pins_->error_count++;
                 return false;
             }
-            if (options_.verbose) printf("%s: register 0x%04x = %d\n", options_.name.c_str(), static_cast<unsigned>(s.address), s.value), fflush(stdout);
+            if (options_.verbose)
+                printf("%s: register 0x%04x = %d\n", options_.name.c_str(), static_cast<unsigned>(s.address), s.value),
+                    fflush(stdout);
         }
         return true;
     }
@@ -186,21 +198,40 @@ private:
     }
 
     bool make_all(Pins &p) {
-        struct { hal_float_t **at; const char *name; } floats[] = {
-            {&p.frequency_command, "frequency-command"}, {&p.frequency_out, "frequency-out"}, {&p.current, "output-current"}, {&p.dc_volts, "DC-bus-volts"},
-            {&p.out_volts, "output-voltage"}, {&p.rpm, "motor-RPM"}, {&p.scale_frequency, "scale-frequency"}, {&p.power_factor, "power-factor"}, {&p.load, "load-percentage"}};
+        struct {
+            hal_float_t **at;
+            const char *name;
+        } floats[] = {{&p.frequency_command, "frequency-command"},
+                      {&p.frequency_out, "frequency-out"},
+                      {&p.current, "output-current"},
+                      {&p.dc_volts, "DC-bus-volts"},
+                      {&p.out_volts, "output-voltage"},
+                      {&p.rpm, "motor-RPM"},
+                      {&p.scale_frequency, "scale-frequency"},
+                      {&p.power_factor, "power-factor"},
+                      {&p.load, "load-percentage"}};
         for (auto &f : floats)
             if (!pins_.pin(*f.at, HAL_OUT, f.name, hal_pin_float_newf)) return false;
-        struct { hal_bit_t **at; hal_pin_dir_t dir; const char *name; } bits[] = {
-            {&p.at_speed, HAL_OUT, "at-speed"}, {&p.is_stopped, HAL_OUT, "is-stopped"}, {&p.initialized, HAL_OUT, "initialized"}, {&p.on, HAL_IN, "spindle-on"},
-            {&p.fwd, HAL_IN, "spindle-fwd"}, {&p.rev, HAL_IN, "spindle-rev"}, {&p.err_reset, HAL_IN, "err-reset"}, {&p.enable, HAL_IN, "enable"}};
+        struct {
+            hal_bit_t **at;
+            hal_pin_dir_t dir;
+            const char *name;
+        } bits[] = {{&p.at_speed, HAL_OUT, "at-speed"},       {&p.is_stopped, HAL_OUT, "is-stopped"},
+                    {&p.initialized, HAL_OUT, "initialized"}, {&p.on, HAL_IN, "spindle-on"},
+                    {&p.fwd, HAL_IN, "spindle-fwd"},          {&p.rev, HAL_IN, "spindle-rev"},
+                    {&p.err_reset, HAL_IN, "err-reset"},      {&p.enable, HAL_IN, "enable"}};
         for (auto &b : bits)
             if (!pins_.pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
-        return pins_.pin(p.status_1, HAL_OUT, "status-1", hal_pin_s32_newf) && pins_.pin(p.status_2, HAL_OUT, "status-2", hal_pin_s32_newf) &&
-               pins_.pin(p.firmware, HAL_OUT, "firmware-revision", hal_pin_s32_newf) && pins_.pin(p.speed_command, HAL_IN, "speed-command", hal_pin_float_newf) &&
-               pins_.parameter(p.error_count, "error-count", hal_param_s32_newf) && pins_.parameter(p.retval, "retval", hal_param_s32_newf) &&
-               pins_.parameter(p.ack_delay, "ack-delay", hal_param_s32_newf) && pins_.parameter(p.loop_time, "loop-time", hal_param_float_newf) &&
-               pins_.parameter(p.tolerance, "tolerance", hal_param_float_newf) && pins_.parameter(p.nameplate_hz, "nameplate-HZ", hal_param_float_newf) &&
+        return pins_.pin(p.status_1, HAL_OUT, "status-1", hal_pin_s32_newf) &&
+               pins_.pin(p.status_2, HAL_OUT, "status-2", hal_pin_s32_newf) &&
+               pins_.pin(p.firmware, HAL_OUT, "firmware-revision", hal_pin_s32_newf) &&
+               pins_.pin(p.speed_command, HAL_IN, "speed-command", hal_pin_float_newf) &&
+               pins_.parameter(p.error_count, "error-count", hal_param_s32_newf) &&
+               pins_.parameter(p.retval, "retval", hal_param_s32_newf) &&
+               pins_.parameter(p.ack_delay, "ack-delay", hal_param_s32_newf) &&
+               pins_.parameter(p.loop_time, "loop-time", hal_param_float_newf) &&
+               pins_.parameter(p.tolerance, "tolerance", hal_param_float_newf) &&
+               pins_.parameter(p.nameplate_hz, "nameplate-HZ", hal_param_float_newf) &&
                pins_.parameter(p.nameplate_rpm, "nameplate-RPM", hal_param_float_newf);
     }
 
@@ -212,9 +243,11 @@ private:
 
 constexpr auto RATES = {"110", "300", "600", "1200", "2400", "4800", "9600", "19200", "38400", "57600", "115200"};
 constexpr option LONG[] = {
-    {"bits", 1, nullptr, 'b'}, {"device", 1, nullptr, 'd'}, {"verbose", 0, nullptr, 'v'}, {"debug", 0, nullptr, 'g'}, {"name", 1, nullptr, 'n'}, {"parity", 1, nullptr, 'p'},
-    {"rate", 1, nullptr, 'r'}, {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"accel-seconds", 1, nullptr, 'A'}, {"decel-seconds", 1, nullptr, 'D'},
-    {"braking-resistor", 0, nullptr, 'R'}, {"disable", 0, nullptr, 'X'}, {"help", 0, nullptr, 'h'}, {nullptr, 0, nullptr, 0}};
+    {"bits", 1, nullptr, 'b'},          {"device", 1, nullptr, 'd'},        {"verbose", 0, nullptr, 'v'},
+    {"debug", 0, nullptr, 'g'},         {"name", 1, nullptr, 'n'},          {"parity", 1, nullptr, 'p'},
+    {"rate", 1, nullptr, 'r'},          {"stopbits", 1, nullptr, 's'},      {"target", 1, nullptr, 't'},
+    {"accel-seconds", 1, nullptr, 'A'}, {"decel-seconds", 1, nullptr, 'D'}, {"braking-resistor", 0, nullptr, 'R'},
+    {"disable", 0, nullptr, 'X'},       {"help", 0, nullptr, 'h'},          {nullptr, 0, nullptr, 0}};
 
 void usage() {
     printf("gs2_vfd [-b BITS] [-d DEVICE] [-v] [-g] [-n NAME] [-p even|odd|none] [-r RATE] [-s STOPBITS] [-t TARGET]\n"
@@ -251,8 +284,9 @@ int run_program(int argc, char **argv) {
     Options options;
     int status;
     if (!parse(argc, argv, options, status)) return status;
-    printf("%s: device='%s', baud=%d, parity='%c', bits=%d, stopbits=%d, address=%d, enabled=%d\n", options.name.c_str(), options.line.device.c_str(), options.line.rate, options.line.parity,
-           options.line.bits, options.line.stop, options.line.target, !options.disabled);
+    printf("%s: device='%s', baud=%d, parity='%c', bits=%d, stopbits=%d, address=%d, enabled=%d\n",
+           options.name.c_str(), options.line.device.c_str(), options.line.rate, options.line.parity, options.line.bits,
+           options.line.stop, options.line.target, !options.disabled);
     fflush(stdout);
     begin_hardware_program(options.name.c_str());
     return Drive(options).run();

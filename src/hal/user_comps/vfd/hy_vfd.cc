@@ -22,7 +22,8 @@ namespace hy {
 namespace {
 
 constexpr int RUN_FORWARD = 0x01, RUN_REVERSE = 0x11, STOP = 0x08;
-constexpr int MAX_FREQUENCY = 5, BASE_FREQUENCY = 4, LOWEST_FREQUENCY = 11, RATED_VOLTAGE = 141, RATED_CURRENT = 142, POLES = 143, RATED_SPEED = 144;
+constexpr int MAX_FREQUENCY = 5, BASE_FREQUENCY = 4, LOWEST_FREQUENCY = 11, RATED_VOLTAGE = 141, RATED_CURRENT = 142,
+              POLES = 143, RATED_SPEED = 144;
 constexpr int LAST_PARAMETER = 182;
 constexpr double RATED_AT_HZ = 50, CYCLE_S = 0.1, LOOK_S = 0.01;
 constexpr int OK_AFTER = 10, STOP_TRIES = 5;
@@ -45,7 +46,8 @@ struct Pins {
     hal_float_t *status[STATUSES]; ///< SetF OutF OutA Rott DCV ACV Cont Tmp
     hal_float_t *control, *answer;
     hal_bit_t *bits[8];
-    hal_float_t *speed_command, *frequency_command, *max_freq, *base_freq, *lower_limit, *volts, *amperes, *rated_rev, *fb, *fb_rps, *tolerance;
+    hal_float_t *speed_command, *frequency_command, *max_freq, *base_freq, *lower_limit, *volts, *amperes, *rated_rev,
+        *fb, *fb_rps, *tolerance;
     hal_u32_t *poles, *retval;
     hal_bit_t *ok, *at_speed;
     hal_s32_t *error_count;
@@ -54,12 +56,14 @@ struct Pins {
 enum { SET_F = 0, OUT_F = 1 };
 constexpr const char *STATUS_NAMES[STATUSES] = {"SetF", "OutF", "OutA", "Rott", "DCV", "ACV", "Cont", "Tmp"};
 constexpr double STATUS_SCALE[STATUSES] = {100, 100, 10, 1, 1, 1, 1, 1};
-constexpr const char *BIT_NAMES[8] = {"CNST-run", "CNST-jog", "CNST-command-rf", "CNST-running", "CNST-jogging", "CNST-running-rf", "CNST-bracking", "CNST-track-start"};
+constexpr const char *BIT_NAMES[8] = {"CNST-run",     "CNST-jog",        "CNST-command-rf", "CNST-running",
+                                      "CNST-jogging", "CNST-running-rf", "CNST-bracking",   "CNST-track-start"};
 constexpr int BIT_MASKS[8] = {0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x40, 0x80};
 
 class Drive {
 public:
-    explicit Drive(const Options &options) : options_(options), drive_(options.name, options.line), pins_(options.name) {}
+    explicit Drive(const Options &options)
+        : options_(options), drive_(options.name, options.line), pins_(options.name) {}
 
     int run() {
         if (!drive_.open() || !make_pins()) return -1;
@@ -105,7 +109,8 @@ private:
 
     /// Gives the drive what the options say, then asks what it has.
     bool setting(int number, double given, double scale, hal_float_t *pin) {
-        if (given > 0 && !told(drive_.set_parameter(number, static_cast<int>(std::lround(given * scale))))) return false;
+        if (given > 0 && !told(drive_.set_parameter(number, static_cast<int>(std::lround(given * scale)))))
+            return false;
         auto value = told(drive_.parameter(number));
         if (value) *pin = *value / scale;
         return value.has_value();
@@ -116,15 +121,19 @@ private:
         const Options &o = options_;
         for (auto &[number, value] : o.registers)
             if (!told(drive_.set_parameter(number, value))) return false;
-        if (!setting(MAX_FREQUENCY, o.max_hz, 100, p.max_freq) || !setting(BASE_FREQUENCY, o.base_hz, 100, p.base_freq) ||
+        if (!setting(MAX_FREQUENCY, o.max_hz, 100, p.max_freq) ||
+            !setting(BASE_FREQUENCY, o.base_hz, 100, p.base_freq) ||
             !setting(LOWEST_FREQUENCY, o.min_hz, 100, p.lower_limit) || !setting(RATED_VOLTAGE, o.volts, 10, p.volts) ||
-            !setting(RATED_CURRENT, o.amperes, 10, p.amperes)) return false;
+            !setting(RATED_CURRENT, o.amperes, 10, p.amperes))
+            return false;
         if (o.poles > 0 && !told(drive_.set_parameter(POLES, o.poles))) return false;
         auto poles = told(drive_.parameter(POLES));
         if (!poles) return false;
         *p.poles = static_cast<uint32_t>(*poles);
         double max_hz = *p.max_freq;
-        if (o.rpm > 0 && max_hz > 0 && !told(drive_.set_parameter(RATED_SPEED, static_cast<int>(std::lround(o.rpm / max_hz * RATED_AT_HZ))))) return false;
+        if (o.rpm > 0 && max_hz > 0 &&
+            !told(drive_.set_parameter(RATED_SPEED, static_cast<int>(std::lround(o.rpm / max_hz * RATED_AT_HZ)))))
+            return false;
         auto speed = told(drive_.parameter(RATED_SPEED));
         if (!speed) return false;
         *p.rated_rev = *speed / RATED_AT_HZ * max_hz;
@@ -197,20 +206,40 @@ private:
 
     bool make_all(Pins &p) {
         for (int n = 0; n < STATUSES; n++)
-            if (!pins_.pin(p.status[n], HAL_OUT, STATUS_NAMES[n], hal_pin_float_newf) || !pins_.pin(p.bits[n], HAL_OUT, BIT_NAMES[n], hal_pin_bit_newf)) return false;
-        struct { hal_float_t **at; hal_pin_dir_t dir; const char *name; } floats[] = {
-            {&p.control, HAL_OUT, "CNTR"}, {&p.answer, HAL_OUT, "CNST"}, {&p.speed_command, HAL_IN, "speed-command"}, {&p.frequency_command, HAL_OUT, "frequency-command"},
-            {&p.max_freq, HAL_OUT, "max-freq"}, {&p.base_freq, HAL_OUT, "base-freq"}, {&p.lower_limit, HAL_OUT, "freq-lower-limit"},
-            {&p.volts, HAL_OUT, "rated-motor-voltage"}, {&p.amperes, HAL_OUT, "rated-motor-current"}, {&p.rated_rev, HAL_OUT, "rated-motor-rev"},
-            {&p.fb, HAL_OUT, "spindle-speed-fb"}, {&p.fb_rps, HAL_OUT, "spindle-speed-fb-rps"}, {&p.tolerance, HAL_IN, "spindle-at-speed-tolerance"}};
+            if (!pins_.pin(p.status[n], HAL_OUT, STATUS_NAMES[n], hal_pin_float_newf) ||
+                !pins_.pin(p.bits[n], HAL_OUT, BIT_NAMES[n], hal_pin_bit_newf))
+                return false;
+        struct {
+            hal_float_t **at;
+            hal_pin_dir_t dir;
+            const char *name;
+        } floats[] = {{&p.control, HAL_OUT, "CNTR"},
+                      {&p.answer, HAL_OUT, "CNST"},
+                      {&p.speed_command, HAL_IN, "speed-command"},
+                      {&p.frequency_command, HAL_OUT, "frequency-command"},
+                      {&p.max_freq, HAL_OUT, "max-freq"},
+                      {&p.base_freq, HAL_OUT, "base-freq"},
+                      {&p.lower_limit, HAL_OUT, "freq-lower-limit"},
+                      {&p.volts, HAL_OUT, "rated-motor-voltage"},
+                      {&p.amperes, HAL_OUT, "rated-motor-current"},
+                      {&p.rated_rev, HAL_OUT, "rated-motor-rev"},
+                      {&p.fb, HAL_OUT, "spindle-speed-fb"},
+                      {&p.fb_rps, HAL_OUT, "spindle-speed-fb-rps"},
+                      {&p.tolerance, HAL_IN, "spindle-at-speed-tolerance"}};
         for (auto &f : floats)
             if (!pins_.pin(*f.at, f.dir, f.name, hal_pin_float_newf)) return false;
-        struct { hal_bit_t **at; hal_pin_dir_t dir; const char *name; } bits[] = {
-            {&p.enable, HAL_IN, "enable"}, {&p.forward, HAL_IN, "spindle-forward"}, {&p.reverse, HAL_IN, "spindle-reverse"}, {&p.on, HAL_IN, "spindle-on"},
-            {&p.ok, HAL_OUT, "hycomm-ok"}, {&p.at_speed, HAL_OUT, "spindle-at-speed"}};
+        struct {
+            hal_bit_t **at;
+            hal_pin_dir_t dir;
+            const char *name;
+        } bits[] = {{&p.enable, HAL_IN, "enable"},           {&p.forward, HAL_IN, "spindle-forward"},
+                    {&p.reverse, HAL_IN, "spindle-reverse"}, {&p.on, HAL_IN, "spindle-on"},
+                    {&p.ok, HAL_OUT, "hycomm-ok"},           {&p.at_speed, HAL_OUT, "spindle-at-speed"}};
         for (auto &b : bits)
             if (!pins_.pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
-        return pins_.pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) && pins_.pin(p.retval, HAL_OUT, "retval", hal_pin_u32_newf) && pins_.pin(p.error_count, HAL_OUT, "error-count", hal_pin_s32_newf);
+        return pins_.pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) &&
+               pins_.pin(p.retval, HAL_OUT, "retval", hal_pin_u32_newf) &&
+               pins_.pin(p.error_count, HAL_OUT, "error-count", hal_pin_s32_newf);
     }
 
     const Options &options_;
@@ -221,15 +250,30 @@ private:
 };
 
 constexpr int REGISTER = 1000, DUMP = 1001;
-constexpr option LONG[] = {
-    {"bits", 1, nullptr, 'b'}, {"device", 1, nullptr, 'd'}, {"debug", 0, nullptr, 'g'}, {"name", 1, nullptr, 'n'}, {"parity", 1, nullptr, 'p'}, {"rate", 1, nullptr, 'r'},
-    {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"max-frequency", 1, nullptr, 'F'}, {"min-frequency", 1, nullptr, 'f'}, {"base-frequency", 1, nullptr, 'B'},
-    {"motor-voltage", 1, nullptr, 'V'}, {"motor-current", 1, nullptr, 'I'}, {"motor-speed", 1, nullptr, 'S'}, {"motor-poles", 1, nullptr, 'P'},
-    {"register", 1, nullptr, REGISTER}, {"regdump", 0, nullptr, DUMP}, {"help", 0, nullptr, 'h'}, {nullptr, 0, nullptr, 0}};
+constexpr option LONG[] = {{"bits", 1, nullptr, 'b'},
+                           {"device", 1, nullptr, 'd'},
+                           {"debug", 0, nullptr, 'g'},
+                           {"name", 1, nullptr, 'n'},
+                           {"parity", 1, nullptr, 'p'},
+                           {"rate", 1, nullptr, 'r'},
+                           {"stopbits", 1, nullptr, 's'},
+                           {"target", 1, nullptr, 't'},
+                           {"max-frequency", 1, nullptr, 'F'},
+                           {"min-frequency", 1, nullptr, 'f'},
+                           {"base-frequency", 1, nullptr, 'B'},
+                           {"motor-voltage", 1, nullptr, 'V'},
+                           {"motor-current", 1, nullptr, 'I'},
+                           {"motor-speed", 1, nullptr, 'S'},
+                           {"motor-poles", 1, nullptr, 'P'},
+                           {"register", 1, nullptr, REGISTER},
+                           {"regdump", 0, nullptr, DUMP},
+                           {"help", 0, nullptr, 'h'},
+                           {nullptr, 0, nullptr, 0}};
 
 void usage() {
     printf("hy_vfd [-b BITS] [-d DEVICE] [-g] [-n NAME] [-p even|odd|none] [-r RATE] [-s STOPBITS] [-t TARGET]\n"
-           "       [-F MAX_HZ] [-f MIN_HZ] [-B BASE_HZ] [-V MOTOR_VOLTS] [-I MOTOR_AMPERES] [-S RPM_AT_MAX_HZ] [-P POLES]\n"
+           "       [-F MAX_HZ] [-f MIN_HZ] [-B BASE_HZ] [-V MOTOR_VOLTS] [-I MOTOR_AMPERES] [-S RPM_AT_MAX_HZ] [-P "
+           "POLES]\n"
            "       [--register PDnnn=VALUE] [--regdump]\n"
            "Defaults: 8 bits, /dev/ttyS0, hy_vfd, even, 19200, 1, 1; what is not given stays as the drive has it.\n");
 }
@@ -237,7 +281,8 @@ void usage() {
 bool a_register(const char *text, Options &o) {
     int number = 0, value = 0;
     char rest;
-    if (sscanf(text, "PD%3d=%d%c", &number, &value, &rest) != 2 || number < 0 || number > LAST_PARAMETER || value < 0 || value > 65535) {
+    if (sscanf(text, "PD%3d=%d%c", &number, &value, &rest) != 2 || number < 0 || number > LAST_PARAMETER || value < 0 ||
+        value > 65535) {
         fprintf(stderr, "hy_vfd: register %s: must be like PD001=2\n", text);
         return false;
     }
@@ -266,7 +311,10 @@ bool parse(int argc, char **argv, Options &o, int &status) {
         case 'V': if (!number_of("hy_vfd", "motor-voltage", optarg, 0, 6500, o.volts)) return false; break;
         case 'I': if (!number_of("hy_vfd", "motor-current", optarg, 0, 6500, o.amperes)) return false; break;
         case 'S': if (!number_of("hy_vfd", "motor-speed", optarg, 0, 1e6, o.rpm)) return false; break;
-        case 'P': if (!number_of("hy_vfd", "motor-poles", optarg, 0, 255, value)) return false; o.poles = static_cast<int>(value); break;
+        case 'P':
+            if (!number_of("hy_vfd", "motor-poles", optarg, 0, 255, value)) return false;
+            o.poles = static_cast<int>(value);
+            break;
         case REGISTER: if (!a_register(optarg, o)) return false; break;
         case DUMP: o.dump = true; break;
         case 'h': usage(); status = 0; return false;

@@ -54,7 +54,8 @@ bool Hycomm::open() {
     cfmakeraw(&t);
     cfsetspeed(&t, speed_of(line_.rate));
     constexpr tcflag_t SIZES[] = {CS5, CS6, CS7, CS8};
-    t.c_cflag = (t.c_cflag & ~static_cast<tcflag_t>(CSIZE | PARENB | PARODD | CSTOPB)) | SIZES[line_.bits - 5] | CLOCAL | CREAD;
+    t.c_cflag =
+        (t.c_cflag & ~static_cast<tcflag_t>(CSIZE | PARENB | PARODD | CSTOPB)) | SIZES[line_.bits - 5] | CLOCAL | CREAD;
     if (line_.parity != 'N') t.c_cflag |= PARENB;
     if (line_.parity == 'O') t.c_cflag |= PARODD;
     if (line_.stop == 2) t.c_cflag |= CSTOPB;
@@ -111,7 +112,9 @@ std::optional<int> Hycomm::ask(Function function, std::initializer_list<int> dat
     if (crc(in, total - CHECK) != (in[total - 2] | in[total - 1] << 8)) return fail(function, "CRC error");
     if (in[0] != out[0] || in[1] != out[1]) return fail(function, "answer of another device or to another question");
     told_.clear();
-    auto word = [&](int n) { return total - CHECK >= n + 2 ? std::optional<int>(in[n] << 8 | in[n + 1]) : std::nullopt; };
+    auto word = [&](int n) {
+        return total - CHECK >= n + 2 ? std::optional<int>(in[n] << 8 | in[n + 1]) : std::nullopt;
+    };
     switch (function) {
     case Function::read_parameter:
     case Function::write_parameter:
@@ -124,9 +127,13 @@ std::optional<int> Hycomm::ask(Function function, std::initializer_list<int> dat
 }
 
 std::optional<int> Hycomm::parameter(int number) { return ask(Function::read_parameter, {number, 0, 0}); }
-std::optional<int> Hycomm::set_parameter(int number, int value) { return ask(Function::write_parameter, {number, value >> 8 & 0xFF, value & 0xFF}); }
+std::optional<int> Hycomm::set_parameter(int number, int value) {
+    return ask(Function::write_parameter, {number, value >> 8 & 0xFF, value & 0xFF});
+}
 std::optional<int> Hycomm::control(int bits) { return ask(Function::control, {bits}); }
 std::optional<int> Hycomm::status(int index) { return ask(Function::read_status, {index}); }
-std::optional<int> Hycomm::frequency(int hz_hundredths) { return ask(Function::write_frequency, {hz_hundredths >> 8 & 0xFF, hz_hundredths & 0xFF}); }
+std::optional<int> Hycomm::frequency(int hz_hundredths) {
+    return ask(Function::write_frequency, {hz_hundredths >> 8 & 0xFF, hz_hundredths & 0xFF});
+}
 
 } // namespace hy

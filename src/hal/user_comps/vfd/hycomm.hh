@@ -11,7 +11,13 @@
 
 namespace hy {
 
-enum class Function : uint8_t { read_parameter = 1, write_parameter = 2, control = 3, read_status = 4, write_frequency = 5 };
+enum class Function : uint8_t {
+    read_parameter = 1,
+    write_parameter = 2,
+    control = 3,
+    read_status = 4,
+    write_frequency = 5
+};
 
 class Hycomm {
 public:
@@ -21,7 +27,8 @@ public:
     /// False, with a message on stderr.
     bool open();
 
-    // Each asks once and waits at most 0.5 s for the answer and for every gap in it. Nothing, with a message, on failure.
+    // Each asks once and waits at most 0.5 s for the answer and for every gap in it. Nothing, with a message,
+    // on failure.
     std::optional<int> parameter(int number);
     std::optional<int> set_parameter(int number, int value);
     std::optional<int> control(int bits);

@@ -38,13 +38,46 @@ struct Kind {
     Value values[MAX_VALUES];
 };
 
-constexpr Kind KINDS[] = {
-    {"hy_gt_vfd", 38400, 1, 0x1000, 0x2000, 16000, 8, 0x5000,
-     {{"freq-fb", 0x3000, 0.01}, {"dc-bus-voltage", 0x3002, 0.1}, {"output-voltage", 0x3003, 1}, {"output-current", 0x3004, 1}, {"speed-fb", 0x3005, 1}, {"output-power", 0x3006, 1},
-      {"input-terminal", 0x300a, 1}, {"output-terminal", 0x300b, 1}, {"AI1", 0x300c, 1}, {"AI2", 0x300d, 1}, {"HDI-frequency", 0x3010, 1}, {"external-counter", 0x3014, 1}}},
-    {"svd-ps_vfd", 9600, 2, 0x2000, 0x1000, 30000, 5, NO_REGISTER,
-     {{"freq-fb", 0x1001, 0.01}, {"dc-bus-voltage", 0x1002, 0.1}, {"output-voltage", 0x1003, 1}, {"output-current", 0x1004, 1}, {"speed-fb", 0x1005, 1}, {"output-power", 0x1006, 1},
-      {"input-terminal", 0x1009, 1}, {"AI1", 0x100a, 0.001}, {"AI2", 0x100b, 0.001}, {}, {}, {}}}};
+constexpr Kind KINDS[] = {{"hy_gt_vfd",
+                           38400,
+                           1,
+                           0x1000,
+                           0x2000,
+                           16000,
+                           8,
+                           0x5000,
+                           {{"freq-fb", 0x3000, 0.01},
+                            {"dc-bus-voltage", 0x3002, 0.1},
+                            {"output-voltage", 0x3003, 1},
+                            {"output-current", 0x3004, 1},
+                            {"speed-fb", 0x3005, 1},
+                            {"output-power", 0x3006, 1},
+                            {"input-terminal", 0x300a, 1},
+                            {"output-terminal", 0x300b, 1},
+                            {"AI1", 0x300c, 1},
+                            {"AI2", 0x300d, 1},
+                            {"HDI-frequency", 0x3010, 1},
+                            {"external-counter", 0x3014, 1}}},
+                          {"svd-ps_vfd",
+                           9600,
+                           2,
+                           0x2000,
+                           0x1000,
+                           30000,
+                           5,
+                           NO_REGISTER,
+                           {{"freq-fb", 0x1001, 0.01},
+                            {"dc-bus-voltage", 0x1002, 0.1},
+                            {"output-voltage", 0x1003, 1},
+                            {"output-current", 0x1004, 1},
+                            {"speed-fb", 0x1005, 1},
+                            {"output-power", 0x1006, 1},
+                            {"input-terminal", 0x1009, 1},
+                            {"AI1", 0x100a, 0.001},
+                            {"AI2", 0x100b, 0.001},
+                            {},
+                            {},
+                            {}}}};
 
 struct Options {
     vfd::SerialLine line = {"/dev/ttyS0", 0, 8, 0, 'N', 1, false};
@@ -80,7 +113,8 @@ public:
 
 private:
     bool open() {
-        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity, options_.line.bits, options_.line.stop);
+        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity,
+                               options_.line.bits, options_.line.stop);
         if (link_ && modbus_set_slave(link_, options_.line.target) == 0 && modbus_connect(link_) == 0) {
             modbus_set_debug(link_, options_.line.debug);
             modbus_set_response_timeout(link_, 0, static_cast<uint32_t>(kind_.response_us));
@@ -93,15 +127,19 @@ private:
     /// Up to six tries with the silence that the drive needs before each.
     template <class F> bool transact(const char *what, int address, F once) {
         for (int n = 0; n < TRIES; n++) {
-            std::this_thread::sleep_for(std::chrono::microseconds(kind_.gap_bytes * 10 * 1000000LL / options_.line.rate));
+            std::this_thread::sleep_for(
+                std::chrono::microseconds(kind_.gap_bytes * 10 * 1000000LL / options_.line.rate));
             if (once()) {
                 told_ = false;
                 return true;
             }
             *pins_->errors = *pins_->errors + 1;
-            if (!told_) fprintf(stderr, "%s: error %s register 0x%04x: %s\n", kind_.name, what, static_cast<unsigned>(address), modbus_strerror(errno));
+            if (!told_)
+                fprintf(stderr, "%s: error %s register 0x%04x: %s\n", kind_.name, what, static_cast<unsigned>(address),
+                        modbus_strerror(errno));
             told_ = true; // once until it works again
-            std::this_thread::sleep_for(std::chrono::microseconds(kind_.response_us)); // a late answer is not the next one's
+            std::this_thread::sleep_for(
+                std::chrono::microseconds(kind_.response_us)); // a late answer is not the next one's
             modbus_flush(link_);
         }
         return false;
@@ -112,7 +150,8 @@ private:
     }
 
     bool write(int address, int value) {
-        return transact("writing", address, [&] { return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1; });
+        return transact("writing", address,
+                        [&] { return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1; });
     }
 
     void step() {
@@ -158,10 +197,15 @@ private:
     bool make_all(Pins &p) {
         for (size_t n = 0; n < MAX_VALUES && kind_.values[n].pin; n++)
             if (!pins_.pin(p.values[n], HAL_OUT, kind_.values[n].pin, hal_pin_float_newf)) return false;
-        if (kind_.fault != NO_REGISTER && (!pins_.pin(p.fault, HAL_OUT, "fault-info", hal_pin_float_newf) || !pins_.pin(p.fault_code, HAL_OUT, "fault-info-code", hal_pin_u32_newf))) return false;
-        return pins_.pin(p.period, HAL_IN, "period-seconds", hal_pin_float_newf) && pins_.pin(p.speed_cmd, HAL_IN, "speed-cmd", hal_pin_float_newf) &&
-               pins_.pin(p.freq_cmd, HAL_OUT, "freq-cmd", hal_pin_float_newf) && pins_.pin(p.at_speed, HAL_OUT, "at-speed", hal_pin_bit_newf) &&
-               pins_.pin(p.on, HAL_IN, "spindle-on", hal_pin_bit_newf) && pins_.pin(p.errors, HAL_OUT, "modbus-errors", hal_pin_u32_newf);
+        if (kind_.fault != NO_REGISTER && (!pins_.pin(p.fault, HAL_OUT, "fault-info", hal_pin_float_newf) ||
+                                           !pins_.pin(p.fault_code, HAL_OUT, "fault-info-code", hal_pin_u32_newf)))
+            return false;
+        return pins_.pin(p.period, HAL_IN, "period-seconds", hal_pin_float_newf) &&
+               pins_.pin(p.speed_cmd, HAL_IN, "speed-cmd", hal_pin_float_newf) &&
+               pins_.pin(p.freq_cmd, HAL_OUT, "freq-cmd", hal_pin_float_newf) &&
+               pins_.pin(p.at_speed, HAL_OUT, "at-speed", hal_pin_bit_newf) &&
+               pins_.pin(p.on, HAL_IN, "spindle-on", hal_pin_bit_newf) &&
+               pins_.pin(p.errors, HAL_OUT, "modbus-errors", hal_pin_u32_newf);
     }
 
     const Kind &kind_;
@@ -172,12 +216,16 @@ private:
 };
 
 constexpr option LONG[] = {
-    {"motor-max-speed", 1, nullptr, 'S'}, {"max-frequency", 1, nullptr, 'F'}, {"min-frequency", 1, nullptr, 'f'}, {"device", 1, nullptr, 'd'}, {"rate", 1, nullptr, 'r'}, {"bits", 1, nullptr, 'b'},
-    {"parity", 1, nullptr, 'p'}, {"stopbits", 1, nullptr, 's'}, {"target", 1, nullptr, 't'}, {"verbose", 0, nullptr, 'v'}, {"help", 0, nullptr, 'h'}, {nullptr, 0, nullptr, 0}};
+    {"motor-max-speed", 1, nullptr, 'S'}, {"max-frequency", 1, nullptr, 'F'}, {"min-frequency", 1, nullptr, 'f'},
+    {"device", 1, nullptr, 'd'},          {"rate", 1, nullptr, 'r'},          {"bits", 1, nullptr, 'b'},
+    {"parity", 1, nullptr, 'p'},          {"stopbits", 1, nullptr, 's'},      {"target", 1, nullptr, 't'},
+    {"verbose", 0, nullptr, 'v'},         {"help", 0, nullptr, 'h'},          {nullptr, 0, nullptr, 0}};
 
 void usage(const Kind &kind) {
-    printf("%s -S MOTOR_MAX_RPM -F MAX_HZ -f MIN_HZ [-d DEVICE] [-r RATE] [-b BITS] [-p even|odd|none] [-s STOPBITS] [-t TARGET] [-v]\n"
-           "Defaults: /dev/ttyS0, %d, 8 bits, none, %d, 1.\n", kind.name, kind.rate, kind.stop);
+    printf("%s -S MOTOR_MAX_RPM -F MAX_HZ -f MIN_HZ [-d DEVICE] [-r RATE] [-b BITS] [-p even|odd|none] [-s STOPBITS] "
+           "[-t TARGET] [-v]\n"
+           "Defaults: /dev/ttyS0, %d, 8 bits, none, %d, 1.\n",
+           kind.name, kind.rate, kind.stop);
 }
 
 /// False with the status to end with.
@@ -199,7 +247,8 @@ bool parse(const Kind &kind, int argc, char **argv, Options &o, int &status) {
         }
     }
     if (o.max_speed > 0 && o.max_hz > 0 && o.min_hz > 0 && o.min_hz <= o.max_hz) return true;
-    fprintf(stderr, "%s: needs --motor-max-speed, --max-frequency and --min-frequency, the last not above the second\n", kind.name);
+    fprintf(stderr, "%s: needs --motor-max-speed, --max-frequency and --min-frequency, the last not above the second\n",
+            kind.name);
     return false;
 }
 

@@ -25,8 +25,8 @@ struct SerialLine {
 
 /// Takes the options b d p r s t (documented with the same letters by each program) into `line`.
 /// False after a message on stderr: a wrong value. Nothing: another option.
-inline std::optional<bool> line_option(const char *program, int option, const char *text, std::initializer_list<const char *> rates,
-                                       SerialLine &line) {
+inline std::optional<bool> line_option(const char *program, int option, const char *text,
+                                       std::initializer_list<const char *> rates, SerialLine &line) {
     const char *chosen = nullptr;
     double number = 0;
     switch (option) {

@@ -36,7 +36,8 @@ void put_coordinate(uint8_t *at, double value) {
 }
 
 void put_number(uint8_t *at, double value) {
-    put16(at, static_cast<unsigned>(std::isfinite(value) ? std::lround(std::clamp(value, -32768.0, 32767.0)) : 0) & 0xFFFFU);
+    put16(at, static_cast<unsigned>(std::isfinite(value) ? std::lround(std::clamp(value, -32768.0, 32767.0)) : 0) &
+                  0xFFFFU);
 }
 
 uint8_t step_code(int step) {
@@ -78,7 +79,8 @@ bool read_layout(const std::string &path, std::vector<Button> &buttons) {
         name.erase(0, std::min(name.size(), name.find_first_not_of(" \t")));
         name.erase(name.find_last_not_of(" \t") + 1);
         if (name.empty() || end == line.c_str() || code < 1 || code > 255) {
-            fprintf(stderr, "xhc-hb04: %s: BUTTON=%s: must be a hexadecimal code from 01 to FF, a colon and a name\n", path.c_str(), line.c_str());
+            fprintf(stderr, "xhc-hb04: %s: BUTTON=%s: must be a hexadecimal code from 01 to FF, a colon and a name\n",
+                    path.c_str(), line.c_str());
             return false;
         }
         if (buttons.size() == MAX_BUTTONS) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// pendant.hh - what the XHC-HB04 pendant says and shows, apart from USB and HAL. Source: sheet of USB drivers, section 8.
+// pendant.hh - what the XHC-HB04 pendant says and shows, apart from USB and HAL. Source: sheet of USB drivers,
+// section 8.
 #pragma once
 
 #include <array>

@@ -31,7 +31,8 @@ double since(Clock::time_point then) { return std::chrono::duration<double>(Cloc
 
 /// Returns early when the program ends.
 void pause(double seconds) {
-    for (auto begin = Clock::now(); !ending && since(begin) < seconds;) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (auto begin = Clock::now(); !ending && since(begin) < seconds;)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 // ---- USB ----
@@ -135,7 +136,8 @@ struct Options {
 
 class Program {
 public:
-    Program(const Options &options, std::vector<Button> buttons) : options_(options), buttons_(std::move(buttons)), steps_(step_sequence(options.sequence)) {}
+    Program(const Options &options, std::vector<Button> buttons)
+        : options_(options), buttons_(std::move(buttons)), steps_(step_sequence(options.sequence)) {}
 
     int run() {
         if (options_.hal && !make_pins()) return 1;
@@ -201,7 +203,8 @@ private:
     }
 
     static void print(const Report &r) {
-        printf("button %02x rotary %02x wheel %d%s\n", static_cast<unsigned>(r.button), static_cast<unsigned>(r.rotary), r.wheel, r.sleeping ? " sleeping" : "");
+        printf("button %02x rotary %02x wheel %d%s\n", static_cast<unsigned>(r.button), static_cast<unsigned>(r.rotary),
+               r.wheel, r.sleeping ? " sleeping" : "");
         fflush(stdout);
     }
 
@@ -302,7 +305,9 @@ private:
         for (AxisPins &a : pins_->axis) *a.plus = *a.minus = false;
     }
 
-    template <class T> bool pin(T *&at, hal_pin_dir_t dir, const std::string &name, int (*make)(hal_pin_dir_t, T **, int, const char *, ...)) {
+    template <class T>
+    bool pin(T *&at, hal_pin_dir_t dir, const std::string &name,
+             int (*make)(hal_pin_dir_t, T **, int, const char *, ...)) {
         return make(dir, &at, component_, "xhc-hb04.%s", name.c_str()) == 0;
     }
 
@@ -323,10 +328,14 @@ private:
         for (int n = 0; n < 4; n++) {
             AxisPins &a = pins_->axis[n];
             const std::string letter(1, AXES[n]);
-            bool good = pin(a.pos_absolute, HAL_IN, letter + ".pos-absolute", hal_pin_float_newf) && pin(a.pos_relative, HAL_IN, letter + ".pos-relative", hal_pin_float_newf) &&
-                        pin(a.enable, HAL_OUT, "jog.enable-" + letter, hal_pin_bit_newf) && pin(a.plus, HAL_OUT, "jog.plus-" + letter, hal_pin_bit_newf) &&
-                        pin(a.minus, HAL_OUT, "jog.minus-" + letter, hal_pin_bit_newf) && (!has("button-zero") || pin(a.zero, HAL_OUT, "button-zero-" + letter, hal_pin_bit_newf)) &&
-                        (!has("button-goto-zero") || pin(a.goto_zero, HAL_OUT, "button-goto-zero-" + letter, hal_pin_bit_newf)) &&
+            bool good = pin(a.pos_absolute, HAL_IN, letter + ".pos-absolute", hal_pin_float_newf) &&
+                        pin(a.pos_relative, HAL_IN, letter + ".pos-relative", hal_pin_float_newf) &&
+                        pin(a.enable, HAL_OUT, "jog.enable-" + letter, hal_pin_bit_newf) &&
+                        pin(a.plus, HAL_OUT, "jog.plus-" + letter, hal_pin_bit_newf) &&
+                        pin(a.minus, HAL_OUT, "jog.minus-" + letter, hal_pin_bit_newf) &&
+                        (!has("button-zero") || pin(a.zero, HAL_OUT, "button-zero-" + letter, hal_pin_bit_newf)) &&
+                        (!has("button-goto-zero") ||
+                         pin(a.goto_zero, HAL_OUT, "button-goto-zero-" + letter, hal_pin_bit_newf)) &&
                         (!has("button-half") || pin(a.half, HAL_OUT, "button-half-" + letter, hal_pin_bit_newf));
             if (!good) return false;
         }
@@ -337,16 +346,26 @@ private:
         Pins &p = *pins_;
         for (size_t n = 0; n < buttons_.size(); n++)
             if (!pin(p.button[n], HAL_OUT, buttons_[n].name, hal_pin_bit_newf)) return false;
-        return pin(p.feed_value, HAL_IN, "feed-value", hal_pin_float_newf) && pin(p.feed_override, HAL_IN, "feed-override", hal_pin_float_newf) &&
-               pin(p.spindle_rps, HAL_IN, "spindle-rps", hal_pin_float_newf) && pin(p.spindle_override, HAL_IN, "spindle-override", hal_pin_float_newf) &&
-               pin(p.sleeping, HAL_OUT, "sleeping", hal_pin_bit_newf) && pin(p.connected, HAL_OUT, "connected", hal_pin_bit_newf) &&
-               pin(p.require_pendant, HAL_OUT, "require_pendant", hal_pin_bit_newf) && pin(p.stepsize_up, HAL_IN, "stepsize-up", hal_pin_bit_newf) &&
-               pin(p.stepsize_down, HAL_IN, "stepsize-down", hal_pin_bit_newf) && pin(p.inch_icon, HAL_IN, "inch-icon", hal_pin_bit_newf) &&
-               pin(p.stepsize, HAL_OUT, "stepsize", hal_pin_s32_newf) && pin(p.counts, HAL_OUT, "jog.counts", hal_pin_s32_newf) &&
-               pin(p.counts_neg, HAL_OUT, "jog.counts-neg", hal_pin_s32_newf) && pin(p.enable_off, HAL_OUT, "jog.enable-off", hal_pin_bit_newf) &&
-               pin(p.enable_feed, HAL_OUT, "jog.enable-feed-override", hal_pin_bit_newf) && pin(p.enable_spindle, HAL_OUT, "jog.enable-spindle-override", hal_pin_bit_newf) &&
-               pin(p.scale, HAL_OUT, "jog.scale", hal_pin_float_newf) && pin(p.velocity, HAL_OUT, "jog.velocity", hal_pin_float_newf) &&
-               pin(p.max_velocity, HAL_IN, "jog.max-velocity", hal_pin_float_newf) && pin(p.increment, HAL_OUT, "jog.increment", hal_pin_float_newf);
+        return pin(p.feed_value, HAL_IN, "feed-value", hal_pin_float_newf) &&
+               pin(p.feed_override, HAL_IN, "feed-override", hal_pin_float_newf) &&
+               pin(p.spindle_rps, HAL_IN, "spindle-rps", hal_pin_float_newf) &&
+               pin(p.spindle_override, HAL_IN, "spindle-override", hal_pin_float_newf) &&
+               pin(p.sleeping, HAL_OUT, "sleeping", hal_pin_bit_newf) &&
+               pin(p.connected, HAL_OUT, "connected", hal_pin_bit_newf) &&
+               pin(p.require_pendant, HAL_OUT, "require_pendant", hal_pin_bit_newf) &&
+               pin(p.stepsize_up, HAL_IN, "stepsize-up", hal_pin_bit_newf) &&
+               pin(p.stepsize_down, HAL_IN, "stepsize-down", hal_pin_bit_newf) &&
+               pin(p.inch_icon, HAL_IN, "inch-icon", hal_pin_bit_newf) &&
+               pin(p.stepsize, HAL_OUT, "stepsize", hal_pin_s32_newf) &&
+               pin(p.counts, HAL_OUT, "jog.counts", hal_pin_s32_newf) &&
+               pin(p.counts_neg, HAL_OUT, "jog.counts-neg", hal_pin_s32_newf) &&
+               pin(p.enable_off, HAL_OUT, "jog.enable-off", hal_pin_bit_newf) &&
+               pin(p.enable_feed, HAL_OUT, "jog.enable-feed-override", hal_pin_bit_newf) &&
+               pin(p.enable_spindle, HAL_OUT, "jog.enable-spindle-override", hal_pin_bit_newf) &&
+               pin(p.scale, HAL_OUT, "jog.scale", hal_pin_float_newf) &&
+               pin(p.velocity, HAL_OUT, "jog.velocity", hal_pin_float_newf) &&
+               pin(p.max_velocity, HAL_IN, "jog.max-velocity", hal_pin_float_newf) &&
+               pin(p.increment, HAL_OUT, "jog.increment", hal_pin_float_newf);
     }
 
     const Options &options_;
@@ -367,7 +386,8 @@ void usage(FILE *out) {
                  "  -I file  layout of the buttons: section [XHC-HB04], lines BUTTON=CODE:NAME\n"
                  "  -H       HAL pins; without it events are printed\n"
                  "  -x       needs the pendant: not ready before it is found, ends when it is lost\n"
-                 "  -s n     step sizes in 0.001 units: 1: 1,10,100,1000  2: 1,5,10,20  3: 1,10,100  4: 1,5,10,20,50,100  5: 1,10,50,100,1000\n");
+                 "  -s n     step sizes in 0.001 units: 1: 1,10,100,1000  2: 1,5,10,20  3: 1,10,100  4: "
+                 "1,5,10,20,50,100  5: 1,10,50,100,1000\n");
 }
 
 } // namespace

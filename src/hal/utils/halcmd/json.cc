@@ -59,10 +59,11 @@ std::string comps(const Patterns &want)
     std::vector<std::string> rows;
     for (auto &c : list_comps())
         if (matches(want, c.name.c_str()))
-            rows.push_back(strf("{\"name\": %s, \"id\": %d, \"type\": \"%s\", \"pid\": %s, \"ready\": %s, \"args\": %s}",
-                                quoted(c.name).c_str(), c.id, c.type == HAL_COMP_TYPE_USER ? "user" : "realtime",
-                                c.type == HAL_COMP_TYPE_USER ? strf("%d", c.pid).c_str() : "null",
-                                c.ready ? "true" : "false", c.has_args ? quoted(c.args).c_str() : "null"));
+            rows.push_back(
+                strf("{\"name\": %s, \"id\": %d, \"type\": \"%s\", \"pid\": %s, \"ready\": %s, \"args\": %s}",
+                     quoted(c.name).c_str(), c.id, c.type == HAL_COMP_TYPE_USER ? "user" : "realtime",
+                     c.type == HAL_COMP_TYPE_USER ? strf("%d", c.pid).c_str() : "null", c.ready ? "true" : "false",
+                     c.has_args ? quoted(c.args).c_str() : "null"));
     return list_of(rows);
 }
 

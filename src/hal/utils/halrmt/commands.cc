@@ -421,7 +421,10 @@ bool set_setp(Context &x)
     hal_query_t q = {};
     q.name = x.args[0].c_str();
     int r = hal_set_p(
-        &q, [](hal_query_t *q, void *arg) { return parse_value(q->pp.type, *static_cast<std::string *>(arg), q->pp.value); },
+        &q,
+        [](hal_query_t *q, void *arg) {
+            return parse_value(q->pp.type, *static_cast<std::string *>(arg), q->pp.value);
+        },
         const_cast<std::string *>(&x.args[1]));
     if (r != 0) x.c.error(strf("Cannot setp '%s' to '%s', error=%d", x.args[0].c_str(), x.args[1].c_str(), r));
     return r == 0;
@@ -433,7 +436,9 @@ bool set_sets(Context &x)
     q.name = x.args[0].c_str();
     int r = hal_set_s(
         &q,
-        [](hal_query_t *q, void *arg) { return parse_value(q->sig.type, *static_cast<std::string *>(arg), q->sig.value); },
+        [](hal_query_t *q, void *arg) {
+            return parse_value(q->sig.type, *static_cast<std::string *>(arg), q->sig.value);
+        },
         const_cast<std::string *>(&x.args[1]));
     if (r != 0) x.c.error(strf("Cannot sets '%s' to '%s', error=%d", x.args[0].c_str(), x.args[1].c_str(), r));
     return r == 0;

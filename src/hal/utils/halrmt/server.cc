@@ -162,7 +162,8 @@ int Server::run()
     while (!shutdown && !ended) {
         std::vector<pollfd> fds = {{listener, POLLIN, 0}};
         for (auto &c : clients)
-            fds.push_back({c->fd, static_cast<short>((c->closing ? 0 : POLLIN) | (c->output.empty() ? 0 : POLLOUT)), 0});
+            fds.push_back(
+                {c->fd, static_cast<short>((c->closing ? 0 : POLLIN) | (c->output.empty() ? 0 : POLLOUT)), 0});
         kerf_clock_poll(fds.data(), fds.size(), jobs.empty() ? -1 : JOB_PERIOD_NS);
         for (size_t i = 1; i < fds.size(); i++)
             if (fds[i].revents & (POLLIN | POLLHUP | POLLERR)) read_client(*clients[i - 1]);
@@ -187,7 +188,8 @@ int Server::run()
     }
     for (auto &c : clients) {
         fcntl(c->fd, F_SETFL, 0);
-        if (send(c->fd, c->output.data(), c->output.size(), MSG_NOSIGNAL) < 0) log("client did not take its last lines");
+        if (send(c->fd, c->output.data(), c->output.size(), MSG_NOSIGNAL) < 0)
+            log("client did not take its last lines");
         close(c->fd);
     }
     close(listener);
