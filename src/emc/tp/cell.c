@@ -341,7 +341,7 @@ static int choose_window(const struct traj *tj, uint32_t index)
 /* Makes the next piece of the final path. 0: nothing to do. */
 static int cut_piece(struct traj *tj, int *samples)
 {
-    double a = tj->cut_s, tiny = 1e-12 * (1 + a), step = 1e30, end, share = 1, cap = 1e12, loss;
+    double a = tj->cut_s, tiny = 1e-12 * (1 + a), step = 1e30, end, share = 1, cap = 1e12, loss, seed[LIMITS_JOINTS];
     int rounded = 0, arc, sampled = tj->lim.kins == LIMITS_SAMPLED;
     uint32_t j;
 
@@ -413,11 +413,13 @@ static int cut_piece(struct traj *tj, int *samples)
         double v = (end - piece_at(tj, tj->piece_end - CELLS_CYCLE + 1)->s0) / tj->dt;
         cap = fmin(cap, v * v);
     }
+    memcpy(seed, tj->lim.seed, sizeof seed);
     for (int n = 0; (loss = bound_cell(tj, c, rounded, arc, share, cap)) > SPLIT || loss < 0; n++) {
         *samples += 3 * sampled;
         if (!(rounded || sampled) || n >= (sampled ? KIN_SPLITS : SPLITS)) break;
         c->len /= 2;
         end = a + c->len;
+        memcpy(tj->lim.seed, seed, sizeof seed); /* each try begins at the same place */
     }
     *samples += 3 * sampled;
     if (loss < 0) {

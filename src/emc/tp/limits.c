@@ -12,6 +12,7 @@
 #define EDGE_TRIES 4    /* steps tried near the edge of what can be reached, ... */
 #define EDGE_STEP 0.125 /* each so much of the one before */
 #define JUMP 90.0       /* a joint that moves so much between two points has changed its solution */
+#define SAME_PLACE 1e-3 /* joints of a path that begins where they are */
 #define SAME 1e-7       /* of a joint's travel: agreement that makes a map linear */
 
 static const double probe_at[][PATH_AXES] = {
@@ -125,9 +126,9 @@ void limits_probe(struct limits *lim, const double p[PATH_AXES])
     lim->kins = LIMITS_LINEAR;
 }
 
-/* Joints at the place of jet and at one and two steps h before and after it: 0, -1: one is not reached, -2: nor is the
- * place itself. */
-static int sample_points(struct limits *lim, const struct path_jet *jet, double h,
+/* Joints at the place of jet and at one and two steps h before and after it; side 1, -1: at four steps after or before
+ * it. 0, -1: one is not reached, -2: nor is the middle one. */
+static int sample_points(struct limits *lim, const struct path_jet *jet, double h, int side,
                          double q[LIMITS_POINTS][LIMITS_JOINTS])
 {
     double p[PATH_AXES];
@@ -135,7 +136,7 @@ static int sample_points(struct limits *lim, const struct path_jet *jet, double 
     for (int k = 0; k < LIMITS_POINTS; k++) {
         static const int order[LIMITS_POINTS] = { 2, 1, 3, 0, 4 }; /* the middle seeds the others */
         int at = order[k];
-        double x = h * (at - 2);
+        double x = h * (at - 2 + 2 * side);
         for (int i = 0; i < PATH_AXES; i++)
             p[i] = jet->p[i] + x * (jet->d1[i] + x * (jet->d2[i] / 2 + x * jet->d3[i] / 6));
         memcpy(q[at], k ? q[2] : lim->seed, sizeof q[at]);
@@ -144,6 +145,8 @@ static int sample_points(struct limits *lim, const struct path_jet *jet, double 
     for (int k = 1; k < LIMITS_POINTS; k++)
         for (int n = 0; n < lim->joints; n++)
             if (fabs(q[k][n] - q[k - 1][n]) > JUMP) return -1;
+    for (int n = 0; side && n < lim->joints; n++)
+        if (fabs(q[2 - 2 * side][n] - lim->seed[n]) > (side > 0 ? SAME_PLACE : JUMP)) return -1;
     return 0;
 }
 
@@ -159,7 +162,10 @@ int limits_sample(struct limits *lim, const struct path_jet *jet, struct limits_
     if (d2 > 0) h = fmin(h, STEP_BEND / sqrt(d2));
     if (d3 > 0) h = fmin(h, STEP_BEND / sqrt(sqrt(d3)));
     for (int n = 0; n < EDGE_TRIES && found == -1; n++, h *= found ? EDGE_STEP : 1)
-        found = sample_points(lim, jet, h, q);
+        found = sample_points(lim, jet, h, 0, q);
+    /* A path may begin or end in a singular place, where joints turn over: its own side is all there is. */
+    for (int side = 1; side >= -1 && found == -1; side -= 2)
+        found = sample_points(lim, jet, h, side, q);
     if (found) return -1;
     for (int n = 0; n < lim->joints; n++) {
         double a = q[0][n], b = q[1][n], c = q[2][n], d = q[3][n], e = q[4][n];
