@@ -9,8 +9,9 @@ Mistakes in the file end the program (SystemExit) with a text that names file an
 
 import inspect
 import os
+import sys
+import time
 import tkinter
-import tkinter.constants
 from xml.parsers import expat
 
 import hal
@@ -70,9 +71,9 @@ def walk(element):
 
 
 def names():
-    """What expressions of the file may use."""
-    found = {n: getattr(tkinter.constants, n) for n in dir(tkinter.constants) if n.isupper()}
-    return found | {"tkinter": tkinter, "Tkinter": tkinter}
+    """What expressions of the file may use: all of tkinter without its name before it, some modules."""
+    modules = {"hal": hal, "os": os, "pyvcp_widgets": pyvcp_widgets, "sys": sys, "time": time, "tkinter": tkinter, "Tkinter": tkinter}
+    return {n: value for n, value in vars(tkinter).items() if not n.startswith("_")} | modules
 
 
 def attribute(text):
@@ -88,8 +89,9 @@ def attribute(text):
 
 def numbers(make, options):
     """The options with numbers where the widget wants numbers: they may stand in quotes, like Tk's own."""
+    maybe = getattr(make, "NUMBERS", ())
     for name, parameter in inspect.signature(make).parameters.items():
-        if type(parameter.default) in (int, float) and isinstance(options.get(name), str):
+        if (type(parameter.default) in (int, float) or name in maybe) and isinstance(options.get(name), str):
             value = float(options[name])
             options[name] = int(value) if value.is_integer() else value
     return options
@@ -130,19 +132,28 @@ class Builder:
                                  f"{type(error).__name__}: {error}\n{self.place(element)}") from None
         return found
 
+    def warn(self, element, text):
+        print(f"{self.place(element)}: {text}", file=sys.stderr)
+
     def element(self, element, master, container):
+        """A widget with its children, or what a directive says. Between widgets, what is no element of a panel is passed over."""
         make = pyvcp_widgets.ELEMENTS.get(element.name)
         if make is None:
-            raise SystemExit(f"{self.place(element)}: unknown element <{element.name}>; known: "
-                             f"{', '.join(sorted(pyvcp_widgets.ELEMENTS))}")
+            self.warn(element, f"<{element.name}> is no element of panels, it and all in it are left out; known: "
+                      f"{', '.join(sorted(pyvcp_widgets.ELEMENTS))}")
+            return
         options = self.options(element)
         try:
-            widget = make(master, self.panel, **numbers(make, options))
+            self.made(element, make(master, self.panel, **numbers(make, dict(options))), options, container)
         except SystemExit:
             raise
         except Exception as error:
-            shown = ", ".join(f"{n}={v!r}" for n, v in options.items())
-            raise SystemExit(f"Error constructing {element.name}({shown}):\n{error}\n{self.place(element)}") from None
+            raise SystemExit(f"Error constructing {element.name}({options}):\n{error}\n{self.place(element)}") from None
+
+    def made(self, element, widget, options, container):
+        """Places a widget and makes its children."""
+        if unknown := getattr(widget, "unknown", None):
+            self.warn(element, f"<{element.name}> has no option {', '.join(unknown)}")
         if isinstance(widget, pyvcp_widgets.Directive):
             if container is not None:
                 widget.apply(container)

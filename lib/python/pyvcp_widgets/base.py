@@ -13,7 +13,7 @@ class Panel:
 
     def __init__(self, component, include):
         self.component, self.include = component, include
-        self.counters, self.images, self.widgets, self.pins = {}, {}, [], set()
+        self.counters, self.images, self.widgets = {}, {}, []
 
     def count(self, kind):
         """The next number of a kind of widgets, from 0."""
@@ -21,21 +21,13 @@ class Panel:
         self.counters[kind] = number + 1
         return number
 
-    def next_number(self, kind):
-        """The number that count() would give."""
-        return self.counters.get(kind, 0)
-
     def default(self, halpin, kind, suffix=""):
         """halpin, or the default name KIND.N and suffix; only default names count."""
         return halpin if halpin else f"{kind}.{self.count(kind)}{suffix}"
 
     def new(self, name, kind, direction):
         """A pin. Raises hal.error."""
-        self.pins.add(f"{self.component.getprefix()}.{name}")
         return self.component.newpin(name, kind, direction)
-
-    def has(self, name):
-        return f"{self.component.getprefix()}.{name}" in self.pins
 
 
 class Follower:
@@ -74,12 +66,19 @@ def keep_readable(widget, options):
         widget.configure(foreground=ink_on(widget, widget["background"]))
 
 
+def known_options(options, names):
+    """Those options that have these names, and the names of the others."""
+    return {n: value for n, value in options.items() if n in names}, sorted(options.keys() - names)
+
+
 class Canvas(tk.Canvas):
     """A drawing on the panel's own ground. tint() gives what has the tag ink (letters, lines) or edge (outlines) a colour
-    that can be read on it, also after the theme has changed."""
+    that can be read on it, also after the theme has changed. `unknown`: options that are not for drawings."""
 
-    def __init__(self, master, **options):
-        super().__init__(master, **options)
+    def __init__(self, master, width, height, options, **defaults):
+        super().__init__(master, width=width, height=height, **defaults)
+        known, self.unknown = known_options(options, set(self.keys()) - {"width", "height"})
+        self.configure(**known)
         self.ground = None
         if not {"bg", "background"} & options.keys() and self["background"] in (tkstyle.LIGHT["field"], tkstyle.DARK["field"]):
             self.configure(background=master["background"])

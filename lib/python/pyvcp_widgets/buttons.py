@@ -5,7 +5,7 @@ import tkinter as tk
 
 import hal
 
-from .base import Follower
+from .base import Follower, known_options
 
 MAX_LEGENDS = 6
 
@@ -77,9 +77,10 @@ class Radiobutton(tk.Frame):
         name = panel.default(halpin, "radiobutton")
         self.choice = tk.IntVar(self, value=int(initval))
         self.pins = [panel.new(f"{name}.{choice}", hal.HAL_BIT, hal.HAL_OUT) for choice in choices]
-        self.buttons = [tk.Radiobutton(self, text=str(choice), variable=self.choice, value=n, anchor="w", **options)
-                        for n, choice in enumerate(choices)]
+        self.buttons = [tk.Radiobutton(self, text=str(choice), variable=self.choice, value=n, anchor="w") for n, choice in enumerate(choices)]
+        known, self.unknown = known_options(options, set(self.buttons[0].keys()) - {"text", "variable", "value"})
         for button in self.buttons:
+            button.configure(**known)
             button.pack(side="left" if orient else "top", fill="x")
         self.follow()
 
@@ -102,9 +103,9 @@ class Multilabel(tk.Label, Disabling):
 
     def __init__(self, master, panel, halpin=None, legends=(), initval=0, disable_pin=False, **options):
         super().__init__(master, **options)
-        if not legends or len(legends) > MAX_LEGENDS:
-            raise ValueError(f"legends = [...] is needed, 1 to {MAX_LEGENDS}")
-        self.legends = legends
+        if not legends:
+            raise ValueError("legends = [...] is needed")
+        legends = self.legends = legends[:MAX_LEGENDS]
         name = panel.default(halpin, "multilabel")
         self.pins = [panel.new(f"{name}.legend{n}", hal.HAL_BIT, hal.HAL_IN) for n in range(len(legends))]
         self.make_disable(panel, name, disable_pin)

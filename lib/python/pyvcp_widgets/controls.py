@@ -2,11 +2,12 @@
 """Widgets that set a number: spinbox, scale, dial, jogwheel."""
 
 import math
+import re
 import tkinter as tk
 
 import hal
 
-from .base import Canvas, Follower
+from .base import Canvas, Follower, ink_on
 
 WHEEL = {"4": 1, "5": -1}       # buttons of X11
 
@@ -36,7 +37,10 @@ class Spinbox(tk.Spinbox):
         self.low, self.high, self.resolution = float(min_), float(max_), float(resolution)
         self.pattern = "%" + str(format).lstrip("%")
         self.value = tk.StringVar(master, value=self.pattern % float(initval))
-        super().__init__(master, textvariable=self.value, from_=min_, to=max_, increment=resolution, format=self.pattern, **options)
+        # Tk's arrows know only %N.Mf: put() writes other formats behind them
+        places = re.search(r"\.(\d+)f$", self.pattern)
+        super().__init__(master, textvariable=self.value, from_=min_, to=max_, increment=resolution, **options,
+                         format=f"%.{places[1] if places else 9}f", command=lambda: self.put(self.number()))
         self.pin = panel.new(halpin or f"spinbox.{number}", hal.HAL_FLOAT, hal.HAL_OUT)
         self.param = make_param_pin(panel, "spinbox", number, halparam) if param_pin == 1 else None
         if self.param:
@@ -45,7 +49,7 @@ class Spinbox(tk.Spinbox):
         self.bind("<Return>", lambda _: self.put(self.number()))
         self.bind("<KP_Enter>", lambda _: self.put(self.number()))
         bind_wheel(self, lambda step: self.put(self.number() + step * self.resolution) or "break")
-        self.good = float(initval)
+        self.put(float(initval))
         self.follow()
 
     def number(self):
@@ -108,20 +112,25 @@ class Wheel(Canvas):
         self.radius = size / 2 - 5
         self.rest, self.steps, self.last = 0.0, 0, None
         edge_tags = () if edge or face else ("edge",)
-        ink_tags = () if face else ("ink",)
+        self.ink_tags = () if face else ("ink",)         # on the panel's ground, which may change
+        self.ink = ink_on(self, face) if face else "black"
         self.create_oval(5, 5, size - 5, size - 5, fill=face, outline=edge or "black", width=2, tags=("face", *edge_tags))
         for n in range(self.cpr if self.cpr <= 120 else 60):
             angle = 2 * math.pi * n / (self.cpr if self.cpr <= 120 else 60)
-            self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * 0.94), fill=edge or "black",
-                             tags=() if edge else ink_tags)
+            self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * 0.94), fill=edge or self.ink,
+                             tags=() if edge else self.ink_tags)
         self.create_oval(0, 0, 0, 0, fill=dot, tags="dot")
-        if text:
-            self.create_text(self.middle, size * 0.72, text=text, tags=ink_tags, font=("Helvetica", max(int(size / 18), 6)))
-        self.create_text(self.middle, self.middle, tags=("number", *ink_tags), font=("Helvetica", max(int(size / 14), 6)))
+        self.write(0.72, size / 18, text=text or "")
+        self.write(0.5, size / 14, tag="number")
         self.bind("<ButtonPress-1>", self.grip)
         self.bind("<B1-Motion>", self.drag)
         bind_wheel(self, self.turn)
         self.show_dot()
+
+    def write(self, height, letters, tag="text", text=""):
+        """A text in the middle; height: share from the top."""
+        self.create_text(self.middle, 2 * self.middle * height, text=text, fill=self.ink, tags=(tag, *self.ink_tags),
+                         font=("Helvetica", max(int(letters), 6)))
 
     def at(self, angle, radius):
         """A place; angle from the top, clockwise."""
@@ -162,10 +171,11 @@ class Wheel(Canvas):
 class Dial(Wheel):
     """A number: double clicks change the step (left a tenth, middle the first one, right ten times), Shift-click goes
     back to the first value."""
+    NUMBERS = ("min_", "max_")
 
     def __init__(self, master, panel, halpin=None, halparam=None, size=200, cpr=40, min_=None, max_=None, text=None, initval=0,
                  resolution=0.1, param_pin=1, dialcolor="", edgecolor="", dotcolor="grey", **options):
-        super().__init__(master, width=size, height=size, **options)
+        super().__init__(master, size, size, options)
         number = panel.count("dial")
         self.pin = panel.new(halpin or f"dial.{number}.out", hal.HAL_FLOAT, hal.HAL_OUT)
         self.param = make_param_pin(panel, "dial", number, halparam)
@@ -175,7 +185,7 @@ class Dial(Wheel):
         self.param.seen = self.value
         self.param.pin.set(self.value)
         self.make(size, cpr, text, dialcolor, edgecolor, dotcolor)
-        self.create_text(self.middle, size * 0.35, tags="step" if dialcolor else ("step", "ink"), font=("Helvetica", max(int(size / 20), 6)))
+        self.write(0.35, size / 20, tag="step")
         for button, change in ((1, lambda: self.step / 10), (2, lambda: self.first_step), (3, lambda: self.step * 10)):
             self.bind(f"<Double-Button-{button}>", lambda _, change=change: self.set_step(change()))
         self.bind("<Shift-Button-1>", lambda _: self.put(self.first))
@@ -208,15 +218,14 @@ class Jogwheel(Wheel):
 
     def __init__(self, master, panel, halpin=None, size=200, cpr=40, bgcolor="lightgrey", fillcolor="lightgrey", text=None,
                  clear_pin=0, scale_pin=0, **options):
-        super().__init__(master, width=size, height=size, **options)
-        base = f"jogwheel.{panel.next_number('jogwheel')}"
-        self.pin = panel.new(panel.default(halpin, "jogwheel", ".count"), hal.HAL_FLOAT, hal.HAL_OUT)
-        if halpin and (panel.has(base + ".reset") or panel.has(base + ".scale")):
-            base = halpin           # a second wheel with a name of its own
+        super().__init__(master, size, size, options)
+        base = panel.default(halpin, "jogwheel")
+        self.pin = panel.new(halpin or base + ".count", hal.HAL_FLOAT, hal.HAL_OUT)
         self.reset = Follower(panel.new(base + ".reset", hal.HAL_BIT, hal.HAL_IN)) if clear_pin else None
         self.scale = panel.new(base + ".scale", hal.HAL_FLOAT, hal.HAL_IN) if scale_pin else None
         self.count, self.shown = 0, 0.0
         self.make(size, cpr, text, bgcolor, "", "grey")
+        self.write(0.35, size / 20, tag="step")
         self.bind("<Enter>", lambda _: self.itemconfigure("face", fill=fillcolor))
         self.bind("<Leave>", lambda _: self.itemconfigure("face", fill=bgcolor))
         if clear_pin:
@@ -240,3 +249,5 @@ class Jogwheel(Wheel):
     def follow(self):
         if self.reset is not None and self.reset.changed():
             self.clear()
+        if self.scale is not None:
+            self.itemconfigure("step", text=f"x {self.scale.get():g}")

@@ -6,6 +6,9 @@ import tkinter as tk
 from .base import Directive
 
 
+TAB_EDGE = 12       # pixels beside the last tab
+
+
 class Container:
     """holder(): what children are made in; add(child) places one."""
 
@@ -44,7 +47,7 @@ class Setting(Directive):
 
 class Boxfill(Setting):
     def __init__(self, master, panel, fill):
-        self.name, self.value = "fill", fill or "none"
+        self.name, self.value = "fill", str(fill or "none").lower()
 
 
 class Boxanchor(Setting):
@@ -155,6 +158,18 @@ class Tabs(tk.Widget, Container):
         if self.pages == 1:
             self.tk.call(self._w, "raise", "p0")
         self.tk.call(self._w, "compute_size")
+        self.after_idle(self.widen)
+
+    def tint(self):
+        """The strip beside the names has the panel's ground."""
+        self.tk.call(f"{self._w}.c", "configure", "-background", self.master["background"])
+
+    def widen(self):
+        """Wide enough for all names: the notebook thinks of its pages alone."""
+        if self.winfo_exists():
+            names = self.tk.splitlist(self.tk.call(f"{self._w}.c", "bbox", "page"))
+            if names and int(names[2]) + TAB_EDGE > int(self["width"]):
+                self.configure(width=int(names[2]) + TAB_EDGE)
 
 
 class Include(tk.Frame, Container):

@@ -36,7 +36,7 @@ class Lamp(Canvas):
 class Led(Lamp):
     def __init__(self, master, panel, halpin=None, size=20, on_color="green", off_color="red", disable_pin=False,
                  disabled_color="gray80", **options):
-        super().__init__(master, width=size, height=size, **({"bd": 0, "highlightthickness": 0} | options))
+        super().__init__(master, size, size, options, bd=0, highlightthickness=0)
         self.create_oval(1, 1, size - 1, size - 1, tags="lamp")
         self.make(panel, halpin, on_color, off_color, disable_pin, disabled_color)
 
@@ -44,7 +44,7 @@ class Led(Lamp):
 class Rectled(Lamp):
     def __init__(self, master, panel, halpin=None, height=10, width=30, on_color="green", off_color="red", disable_pin=False,
                  disabled_color="gray80", **options):
-        super().__init__(master, width=width, height=height, **({"bd": 0, "highlightthickness": 0} | options))
+        super().__init__(master, width, height, options, bd=0, highlightthickness=0)
         self.create_rectangle(1, 1, width - 1, height - 1, tags="lamp")
         self.make(panel, halpin, on_color, off_color, disable_pin, disabled_color)
 
@@ -106,15 +106,28 @@ class Timer(tk.Label):
             self.configure(text=text)
 
 
-class Bar(Canvas):
+class Ranged(Canvas):
+    """Shows a number between two others; the first may be the greater one."""
+
+    def range(self, low, high):
+        if low == high:
+            raise ValueError(f"min_ and max_ are both {low}")
+        self.low, self.high = float(low), float(high)
+
+    def share(self, value):
+        """Of the way from the first to the last number, 0 to 1."""
+        share = (value - self.low) / (self.high - self.low)
+        return min(max(share, 0.0), 1.0) if share == share else 0.0
+
+
+class Bar(Ranged):
     """A bar from the left edge, or from 0, with its number. Colours of ranges: (low, high, colour), all three or none."""
 
     def __init__(self, master, panel, halpin=None, min_=0, max_=100, fillcolor="green", bgcolor="grey", range1=None, range2=None,
                  range3=None, canvas_width=200, canvas_height=50, bar_height=30, bar_width=150, format="3.1f", **options):
-        super().__init__(master, width=canvas_width, height=canvas_height, **options)
-        if not max_ > min_:
-            raise ValueError(f"max_ ({max_}) must be above min_ ({min_})")
-        self.low, self.high, self.pattern = float(min_), float(max_), "%" + str(format).lstrip("%")
+        super().__init__(master, canvas_width, canvas_height, options)
+        self.range(min_, max_)
+        self.pattern = "%" + str(format).lstrip("%")
         self.fillcolor, self.ranges = fillcolor, (range1, range2, range3) if range1 and range2 and range3 else ()
         self.x, self.y, self.wide, self.tall = (canvas_width - bar_width) / 2, 5, bar_width, bar_height
         self.create_rectangle(self.x, self.y, self.x + bar_width, self.y + bar_height, fill=bgcolor)
@@ -127,8 +140,7 @@ class Bar(Canvas):
         self.follow()
 
     def position(self, value):
-        value = min(max(value, self.low), self.high) if value == value else self.low
-        return self.x + self.wide * (value - self.low) / (self.high - self.low)
+        return self.x + self.wide * self.share(value)
 
     def color(self, value):
         for low, high, color in self.ranges:
@@ -144,23 +156,25 @@ class Bar(Canvas):
         self.itemconfigure("number", text=self.pattern % value)
 
 
-class Meter(Canvas):
+class Meter(Ranged):
+    NUMBERS = ("majorscale",)       # options that are numbers if they are given
+
     def __init__(self, master, panel, halpin=None, size=200, text=None, subtext=None, min_=0, max_=100, majorscale=None,
                  minorscale=0, region1=None, region2=None, region3=None, **options):
-        super().__init__(master, width=size, height=size, **options)
-        if not max_ > min_:
-            raise ValueError(f"max_ ({max_}) must be above min_ ({min_})")
-        self.low, self.high, self.middle = float(min_), float(max_), size / 2
+        super().__init__(master, size, size, options)
+        self.range(min_, max_)
+        self.middle = size / 2
         self.radius = size / 2 - 6
         self.create_oval(6, 6, size - 6, size - 6, fill="white")
         for region in (region1, region2, region3):
             if region:
                 self.arc(*region)
         # an odd scale (0, below 0, thousands of lines) gives none rather than a hang
-        for scale, long in ((minorscale, 0.06), (majorscale if majorscale else (self.high - self.low) / 10, 0.12)):
-            if scale and scale > 0 and (self.high - self.low) / scale <= 1000:
-                for n in range(int((self.high - self.low) / scale + 1e-9) + 1):
-                    self.mark(self.low + n * scale, long)
+        span = self.high - self.low
+        for scale, long in ((minorscale, 0.06), (majorscale if majorscale else abs(span) / 10, 0.12)):
+            if scale and scale > 0 and abs(span) / scale <= 1000:
+                for n in range(int(abs(span) / scale + 1e-9) + 1):
+                    self.mark(self.low + math.copysign(n * scale, span), long)
         for where, what, big in ((0.62, text, 8), (0.74, subtext, 6)):
             if what:
                 self.create_text(self.middle, self.middle * 2 * where, text=what, font=("Helvetica", max(int(size / 200 * big) + 4, 6)))
@@ -172,8 +186,7 @@ class Meter(Canvas):
 
     def angle(self, value):
         """From the positive x axis, against the clock: the sweep is open at the bottom."""
-        value = min(max(value, self.low), self.high) if value == value else self.low
-        return math.pi / 2 + SWEEP_RAD / 2 - SWEEP_RAD * (value - self.low) / (self.high - self.low)
+        return math.pi / 2 + SWEEP_RAD / 2 - SWEEP_RAD * self.share(value)
 
     def at(self, angle, radius):
         return self.middle + radius * math.cos(angle), self.middle - radius * math.sin(angle)
@@ -189,7 +202,7 @@ class Meter(Canvas):
         angle = self.angle(value)
         self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * (1 - long)), width=2 if long > 0.1 else 1)
         if long > 0.1:
-            self.create_text(*self.at(angle, self.radius * 0.76), text=f"{value:g}", font=("Helvetica", max(int(self.middle / 12), 6)))
+            self.create_text(*self.at(angle, self.radius * 0.7), text=f"{value:g}", font=("Helvetica", max(int(self.middle / 12), 6)))
 
     def follow(self):
         if (value := self.value.changed()) is None:
