@@ -31,8 +31,10 @@ def place_of(window):
 
 def menu_height(window):
     """Pixels of its menu bar as its letters are now."""
-    bars = [child for child in window.tk.splitlist(window.tk.call("winfo", "children", window)) if "#" in str(child).rpartition(".")[2]]
-    return max((int(window.tk.call("winfo", "reqheight", bar)) for bar in bars if str(window.tk.call(bar, "cget", "-type")) == "menubar"), default=0)
+    menus = [child for child in window.tk.splitlist(window.tk.call("winfo", "children", window))
+             if "#" in str(child).rpartition(".")[2] and str(window.tk.call("winfo", "class", child)) == "Menu"]
+    return max((int(window.tk.call("winfo", "reqheight", menu)) for menu in menus
+                if str(window.tk.call(menu, "cget", "-type")) == "menubar"), default=0)
 
 
 def room_of(window):
