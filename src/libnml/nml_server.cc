@@ -72,7 +72,7 @@ bool Server::listen(const std::string &address) {
         at.sin_port = htons(static_cast<uint16_t>(instance_port(port)));
         setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
         if (bind(fd, reinterpret_cast<sockaddr *>(&at), sizeof at) != 0 || ::listen(fd, SOMAXCONN) != 0) {
-            rcs_print_error("NML server: port %d: %s\n", instance_port(port), strerror(errno));
+            rcs_print_error("NML server: port %d: %s: programs on other computers, and those that use TCP, are not served\n", instance_port(port), strerror(errno));
             close(fd);
             good = false;
             continue;

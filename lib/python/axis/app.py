@@ -624,7 +624,11 @@ def main(argv):
     if not os.environ.get("DISPLAY"):
         print("axis: no display (DISPLAY is not set)")
         return 1
-    root = tk.Tk(className="Axis", baseName="axis")
+    try:
+        root = tk.Tk(className="Axis", baseName="axis")
+    except tk.TclError as e:
+        print(f"axis: {e}", file=sys.stderr)
+        return 1
     root.withdraw()
     try:
         app = App(root, ini_path)

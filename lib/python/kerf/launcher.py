@@ -6,6 +6,7 @@ killed, the other one ends everything that was started, so nothing is left behin
 Order, texts and exit statuses: launcher reference, sections 1 to 7.
 """
 
+import contextlib
 import ctypes
 import getopt
 import os
@@ -17,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import traceback
 import uuid
 from pathlib import Path
 
@@ -230,7 +232,6 @@ class Session:
         self.watched = {}        # pid -> name: the session ends when one of these dies,
         self.dispensable = set()  # or the operator is told: server of remote clients, components of HAL
         self.display = None
-        self.have_lock = False
         self.task_died = False   # without having put anything in order
         self.splash = None
         self.hal_failed = False  # some HAL file or command, with -k
@@ -320,9 +321,12 @@ class Session:
         while True:
             try:
                 fd = os.open(self.lock, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o644)
-                os.write(fd, f"{os.getpid()} {self.id}\n".encode())
+                try:
+                    os.write(fd, f"{os.getpid()} {self.id}\n".encode())
+                except OSError as e:
+                    os.unlink(self.lock)
+                    raise Failure(f"Can't write the lock file {self.lock}: {e.strerror}") from None
                 os.close(fd)
-                self.have_lock = True
                 return
             except FileExistsError:
                 pass
@@ -436,7 +440,7 @@ class Session:
                     break
                 self.load_hal_file(entry)
         for line in self.ini.all("HAL", "HALCMD"):
-            failed = self.run(*self.halcmd, *shlex.split(line, posix=False)) != 0
+            failed = self.run(*self.halcmd, *line.split()) != 0
             self.hal_failed |= failed
             if failed and not self.options.keep_going:
                 raise Failure(f"INI file HAL command {line} failed.")
@@ -473,14 +477,21 @@ class Session:
                           f"[HAL]HALFILE = {entry}")
 
     def start_applications(self):
-        delay = float(self.ini.get("APPLICATIONS", "DELAY", "0") or 0)
+        try:
+            delay = float(self.ini.get("APPLICATIONS", "DELAY", "0") or 0)
+        except ValueError:           # linuxcnc_check_ini has told it
+            delay = 0.0
         for value in self.ini.all("APPLICATIONS", "APP"):
             if not value:
                 break
-            words = shlex.split(os.path.expanduser(value) if value.startswith("~/") else value)
+            try:
+                words = shlex.split(os.path.expanduser(value) if value.startswith("~/") else value)
+            except ValueError as e:
+                print(f"APP: {e}: <{value}>")
+                continue
             name = words[0]
             local = os.path.join(os.getcwd(), name)
-            path = name if name.startswith("/") else local if os.access(local, os.X_OK) and os.path.isfile(local) \
+            path = name if name.startswith("/") else local if name.startswith("./") or os.access(local, os.X_OK) and os.path.isfile(local) \
                 else shutil.which(name, path=self.env["PATH"])
             if not path or not os.path.exists(path):
                 print(f"APP: Cannot find executable file for: <{name}>")
@@ -685,28 +696,26 @@ class Logs:
             return
         sys.stdout.flush()
         sys.stderr.flush()
+        texts = []
         if status:
-            home = Path.home()
-            texts = []
             for kind, path in self.files.items():
-                target = instance.suffixed(str(home / f"linuxcnc_{kind}.txt"))
                 try:
+                    target = instance.suffixed(str(Path.home() / f"linuxcnc_{kind}.txt"))
                     shutil.copyfile(path, target)
-                except OSError:
+                except (OSError, RuntimeError):     # there is no home, or nothing can be written in it
                     target = path
                 texts.append(target)
-            with open(self.files["debug"]) as f:
-                os.write(terminal, f.read()[-4000:].encode())
+            with open(self.files["debug"], "rb") as f:
+                os.write(terminal, f.read()[-4000:])
             self.show(died, *texts)
             os.write(terminal, (
                 "LinuxCNC terminated with an error.  You can find more information in the log:\n"
                 f"    {texts[1]}\nand\n    {texts[0]}\n"
                 "as well as in the output of the shell command 'dmesg' and in the terminal\n").encode())
         for path in self.files.values():
-            try:
-                os.unlink(path)
-            except OSError:
-                pass
+            if path not in texts:
+                with contextlib.suppress(OSError):
+                    os.unlink(path)
 
 
 def find_ini(options, tree):
@@ -734,7 +743,7 @@ def find_ini(options, tree):
 
 
 def ignore_ends():
-    for end in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+    for end in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(end, signal.SIG_IGN)
 
 
@@ -778,6 +787,7 @@ def session_main(options, ini_path, tree, guard, told):
         return 1
     signal.signal(signal.SIGTERM, interrupted)
     signal.signal(signal.SIGINT, interrupted)
+    signal.signal(signal.SIGQUIT, interrupted)
     on_hangup(interrupted)
     session = Session(options, ini_path, tree)
     status = 0
@@ -814,6 +824,10 @@ def guarded(options, ini_path, tree):
         status = 1
         try:
             status = session_main(options, ini_path, tree, guard, tell)
+        except OSError as e:             # no space, no rights, no such folder
+            print(f"linuxcnc: {e.strerror}" + (f": {e.filename}" if e.filename else ""), file=sys.stderr)
+        except Exception:                # a fault of ours
+            traceback.print_exc()
         finally:
             sys.stdout.flush()
             sys.stderr.flush()
@@ -826,7 +840,8 @@ def guarded(options, ini_path, tree):
             pass
     signal.signal(signal.SIGTERM, forward)
     on_hangup(lambda *_: forward(signal.SIGTERM, None))
-    signal.signal(signal.SIGINT, lambda *_: None if os.isatty(0) else forward(signal.SIGTERM, None))
+    for key in (signal.SIGINT, signal.SIGQUIT):        # from a terminal both processes get it
+        signal.signal(key, lambda *_: None if os.isatty(0) else forward(signal.SIGTERM, None))
     _, how = os.waitpid(child, 0)
     os.close(tell)
     with open(hear, errors="replace") as f:

@@ -71,7 +71,7 @@ int main(int argc, char **argv) {
     int result = 1;
     {
         Task task(args.ini_file);
-        if (task.start()) {
+        if (task.start(&stop)) {
             task.run(&stop);
             task.shutdown();
             result = 0;

@@ -110,7 +110,7 @@ static bool takes_one_integer(const std::string &format) {
     return true;
 }
 
-bool Task::start() {
+bool Task::start(const volatile int *stop) {
     if (!ini_.open(ini_file_)) return false;
     debug_ = static_cast<unsigned>(set_rcs_print(ini_));
     stat_.debug = static_cast<int>(debug_);
@@ -159,6 +159,7 @@ bool Task::start() {
     // Each turn gives virtual time one millisecond and the rest of the machine some wall time.
     int64_t patience = wall_ns() + MOTION_PATIENCE_NS;
     while (!(motion_.attach(ini_) && motion_.alive())) {
+        if (*stop) return false;
         if (wall_ns() > patience) {
             rcs_print_error(
                 "can't connect to motion: no motion module was loaded, or its functions are in no running thread\n");

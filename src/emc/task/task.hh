@@ -34,8 +34,8 @@ public:
     explicit Task(std::string ini_file);
     ~Task();
 
-    // Everything up to the first cycle; false with a message.
-    bool start();
+    // Everything up to the first cycle; false with a message, or when `*stop` is set.
+    bool start(const volatile int *stop);
     // Cycles until `*stop` is set (by a signal handler).
     void run(const volatile int *stop);
     void shutdown();

@@ -3,20 +3,27 @@
 import os
 import re
 import shutil
+import socket
 import subprocess
 import sys
 from pathlib import Path
 
+from kerf import instance
+
 TOP = Path(os.environ["EMC2_HOME"])
+LINUXCNC = shutil.which("linuxcnc")
+SUFFIX = "." + (instance.name() or "none")
+PORT = 21000 + os.getpid() % 9000
 # What a good start says, too; and the list of logs that ends every failed one.
 USUAL = re.compile(r"LINUXCNC - |Machine configuration |Starting LinuxCNC|linuxcnc TPMOD=|Found file|Shutting down|task: \d+ cycles|Running HAL shutdown|"
-                   r"LinuxCNC terminated|Note: Using virtual time|NML server: port|    .*\.txt$|and$|as well as|$")
-CASES = []  # (group, title, file, (pattern, replacement) ..., preparation)
+                   r"LinuxCNC terminated|Note: Using virtual time|    .*\.txt$|and$|as well as|$")
+CASES = []  # (group, title, file, (pattern, replacement) ..., preparation, environment, words before the command)
 GROUP = "settings"
 
 
-def case(title, *edits, prepare=None, file="mill.ini"):
-    CASES.append((GROUP, title, file, edits, prepare))
+def case(title, *edits, prepare=None, file="mill.ini", env={}, before=()):
+    """env: what differs in the environment, None: not set. prepare: may return a port that is busy while the machine starts."""
+    CASES.append((GROUP, title, file, edits, prepare, env, before))
 
 
 def put(name, text, mode=0o644):
@@ -24,6 +31,13 @@ def put(name, text, mode=0o644):
         Path(name).write_text(text)
         Path(name).chmod(mode)
     return write
+
+
+def busy(number):
+    """A server that is no machine's at a port of the documented number, and the port of this instance for it."""
+    def listen():
+        return [socket.create_server(("127.0.0.1", p)) for p in number]
+    return listen
 
 
 HAL = r"\A"  # in front of a HAL file
@@ -93,8 +107,32 @@ case("a HOME that is no number", (r"\[TRAJ\]", "[TRAJ]\nHOME = 0 zero"))
 case("a tool change position of two numbers", (r"\[EMCIO\]", "[EMCIO]\nTOOL_CHANGE_POSITION = 1 2"))
 case("a tool database that is not there", (r"TOOL_TABLE = .*", "DB_PROGRAM = ./nodb"))
 
+# --- what is around the machine
+GROUP = "around"
+case("no display for the screen", (r"DISPLAY = .*", "DISPLAY = axis"))
+case("a display that can't be opened", (r"DISPLAY = .*", "DISPLAY = axis"), env={"DISPLAY": ":7777"})
+case("a display of Tk that can't be opened", (r"DISPLAY = .*", "DISPLAY = tklinuxcnc"), env={"DISPLAY": ":7777"})
+case("no LCD server", (r"DISPLAY = .*", "DISPLAY = linuxcnclcd -p 7"))
+case("a port that another program has", (r"DISPLAY = .*", f"DISPLAY = linuxcncrsh --port {PORT}"), prepare=busy([PORT]))
+case("a port of the server that another program has", prepare=busy([instance.port(5005)]))
+case("no room for files", env={"PYTHONDONTWRITEBYTECODE": "1"}, before=("bash", "-c", 'ulimit -f 0; exec "$@"', "bash"))
+case("no home", env={"HOME": None})
+case("a home that is not there", env={"HOME": "/nonexistent"})
+case("a blank and a letter beyond ASCII in the path", prepare=lambda: shutil.copytree(".", "a b/ü"), before=("env", "-C", "a b/ü"))
+case("a path of programs without ours", env={"PATH": "/usr/bin:/bin", "LINUXCNC_RIP_FLAG": None, "LD_LIBRARY_PATH": None, "PYTHONPATH": None})
+case("a language with a comma", before=(TOP / "tests/lib/with-comma-locale",))
+case("applications of all kinds", (r"\Z", "[APPLICATIONS]\nDELAY = soon\nAPP = none\nAPP = sh -c 'echo here\nAPP = ./mill.hal\n"))
+case("a HALCMD with a quotation mark", (r"\[HAL\]", "[HAL]\nHALCMD = show sig 'x"))
+case("a HAL file that sources what is not there", (HAL, "loadrt and2\nsource one.hal\n"), file="spindle.hal")
+case("a mistake two sources deep", (HAL, "loadrt and2\nsource one.hal\n"), file="spindle.hal",
+     prepare=lambda: (put("one.hal", "\n\nsource two.hal\n")(), put("two.hal", "net a\nnet a and2.0.none\n")()))
+case("a HAL file that is no text", (HAL, "\0\1\n"), file="spindle.hal")
+case("a mistake two Tcl files deep", (r"HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = more.tcl"),
+     prepare=lambda: (put("more.tcl", "proc deep {} {\n  source inner.tcl\n}\ndeep\n")(), put("inner.tcl", "\nsetp nothing.at.all 5\n")()))
+case("a HAL file for shutdown with a mistake", (r"\[HAL\]", "[HAL]\nSHUTDOWN = down.hal"), prepare=put("down.hal", "\nnet a nothing\n"))
+
 groups, chosen = sys.argv[1].split(","), sys.argv[2:]
-for group, title, file, edits, prepare in CASES:
+for group, title, file, edits, prepare, other, before in CASES:
     if group not in groups or chosen and not any(c in title for c in chosen):
         continue
     shutil.rmtree("mill", ignore_errors=True)
@@ -106,11 +144,10 @@ for group, title, file, edits, prepare in CASES:
         text, count = re.subn(pattern, replacement, Path(file).read_text(), count=1)
         assert count, (title, pattern)
         Path(file).write_text(text)
-    if prepare:
-        prepare()
-    env = {k: v for k, v in os.environ.items() if k != "DISPLAY"} | {"HOME": os.getcwd()}
+    busy_ports = (prepare() or []) if prepare else []
+    env = {k: v for k, v in ({k: v for k, v in os.environ.items() if k != "DISPLAY"} | {"HOME": os.getcwd()} | other).items() if v is not None}
     try:
-        done = subprocess.run(["linuxcnc", "-r", "mill.ini"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        done = subprocess.run([*before, LINUXCNC, "-r", "mill.ini"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                               errors="replace", timeout=60, env=env)
         status, out = done.returncode, done.stdout
     except subprocess.TimeoutExpired as e:
@@ -118,7 +155,10 @@ for group, title, file, edits, prepare in CASES:
     print(f"# {title}: status {status}")
     for line in out.splitlines():
         if not USUAL.match(line):
-            print("    " + line.replace(os.getcwd() + "/", "").replace(str(TOP) + "/", ""))
+            print("    " + re.sub(r"port \d{2,}", "port N", line.replace(os.getcwd() + "/", "").replace(str(TOP) + "/", "").replace(SUFFIX, "")))
+    for server in busy_ports:
+        if isinstance(server, socket.socket):
+            server.close()
     left = subprocess.run(["realtime", "status"], capture_output=True, text=True).stdout.strip()
     if left != "rtapi_app is not running":
         print("    LEFT:", left)

@@ -355,7 +355,9 @@ bool Server::open_port(int family, const char *address) {
     if (known != 1 || bind(fd, at, size) != 0 || listen(fd, 16) != 0) {
         if (family == AF_INET || !options.bind.empty())
             fprintf(stderr, "linuxcncrsh: %s port %d: %s\n", address, options.port,
-                    known == 1 ? strerror(errno) : "not an address");
+                    known != 1             ? "not an address"
+                    : errno == EADDRINUSE ? "Address already in use: end the program that has it, or give another one with --port"
+                                          : strerror(errno));
         close(fd);
         return false;
     }
@@ -391,7 +393,7 @@ bool Server::start() {
     bool any = options.bind == "*";
     if (options.bind.empty() || any) {
         bool six = !options.ipv4 && open_port(AF_INET6, any ? "::" : "::1");
-        if (!(six && any)) open_port(AF_INET, any ? "0.0.0.0" : "127.0.0.1");
+        if (!(six && any) && !open_port(AF_INET, any ? "0.0.0.0" : "127.0.0.1")) return false; // clients would meet another program there
     } else {
         open_port(options.bind.find(':') == std::string::npos ? AF_INET : AF_INET6, options.bind.c_str());
     }

@@ -104,7 +104,7 @@ int Session::run_logical(std::string line, bool top_level)
 {
     Args tokens;
     bool dos = false;
-    std::string text, fault = strip_comment(line);
+    std::string text, fault = line.find('\0') == std::string::npos ? strip_comment(line) : "Byte 0 in this line: the file is no text";
     if (fault.empty()) fault = substitute(line, lookup(), text);
     if (fault.empty()) fault = tokenize(text, tokens, dos);
     if (dos && !dos_warned) {
@@ -128,15 +128,13 @@ int Session::run_logical(std::string line, bool top_level)
 
 bool read_physical(FILE *in, std::string &line, bool &cut)
 {
-    char buffer[MAX_PHYSICAL + 1];
+    int c = 0;
     cut = false;
     errno = 0;
-    if (!fgets(buffer, sizeof buffer, in)) return false;
-    size_t n = strlen(buffer);
-    if (n && buffer[n - 1] == '\n') n--;
-    else cut = n == MAX_PHYSICAL;
-    line.assign(buffer, n);
-    return true;
+    line.clear();
+    while (line.size() < MAX_PHYSICAL && (c = getc(in)) != EOF && c != '\n') line += static_cast<char>(c);
+    cut = line.size() == MAX_PHYSICAL;
+    return c != EOF || !line.empty();
 }
 
 int Session::run_stream(FILE *in)
@@ -164,6 +162,7 @@ int Session::source(const std::string &path)
     if (!in) {
         fflush(stdout);
         fprintf(stderr, "Could not open hal file '%s': %s\n", path.c_str(), strerror(errno));
+        if (place.file != Place().file) fprintf(stderr, "%s:%d: it is sourced here\n", place.file.c_str(), place.line);
         return -EINVAL;
     }
     Place outer = place;
