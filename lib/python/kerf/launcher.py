@@ -21,6 +21,7 @@ import time
 import traceback
 import uuid
 from pathlib import Path
+from pwd import getpwuid
 
 from . import clock, instance
 from .inivalues import IniError, IniValues
@@ -150,6 +151,13 @@ def session_processes(session, part=""):
             continue
         if lives(pid):
             yield pid
+
+
+def user_name(uid):
+    try:
+        return getpwuid(uid).pw_name
+    except KeyError:
+        return f"user {uid}"
 
 
 def comm_of(pid):
@@ -345,7 +353,10 @@ class Session:
 
     def wants_restart(self):
         if sys.stdin.isatty():
-            answer = input("LinuxCNC is still running.  Restart it? [Y/n] ")
+            try:
+                answer = input("LinuxCNC is still running.  Restart it? [Y/n] ")
+            except EOFError:        # Ctrl-D
+                answer = "n"
             return answer in ("", "y", "Y", "yes")
         if not os.environ.get("DISPLAY"):
             print("No display, no tty, trying to clean up other instance automatically", flush=True)
@@ -356,6 +367,7 @@ class Session:
         return done.stdout.strip() == "yes"
 
     def clean_other(self, owner, old_id):
+        self.need_rights(owner)
         if owner and lives(owner):
             os.kill(owner, signal.SIGTERM)
             until = time.monotonic() + 5 * CHILD_END_S
@@ -366,6 +378,14 @@ class Session:
         mine, self.id = self.id, old_id
         self.clean(remove_lock=True)
         self.id = mine
+
+    def need_rights(self, owner):
+        """Another user's session can't be ended by this one."""
+        with contextlib.suppress(FileNotFoundError):
+            uid = os.stat(self.lock).st_uid
+            if os.geteuid() not in (0, uid):
+                end_it = f"end its process {owner}" if owner and lives(owner) else f"remove {self.lock}"
+                raise Failure(f"LinuxCNC was started by {user_name(uid)}: {end_it} as that user or as root")
 
     def start(self):
         o, env = self.options, self.env
