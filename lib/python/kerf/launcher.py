@@ -297,7 +297,10 @@ class Session:
             return
         if not os.environ.get("DISPLAY"):       # nobody to ask: the backup keeps the old files
             from . import update_ini
-            backup = update_ini.convert(Path(self.ini_path), version)
+            try:
+                backup = update_ini.convert(Path(self.ini_path), version)
+            except update_ini.UpdateError as e:
+                raise Failure(str(e)) from None
             print(f"{self.ini_path}: updated to version 1.1; the old files are in {backup}", flush=True)
             self.ini = IniValues(self.ini_path, self.env)
             return

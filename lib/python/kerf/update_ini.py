@@ -240,15 +240,22 @@ def hal_files(folder, sections):
     return found
 
 
-def replace(path, text):
-    """Writes a file whole or not at all."""
-    new = path.with_name(path.name + ".new")
-    with open(new, "w") as f:
-        f.write(text)
-        f.flush()
-        os.fsync(f.fileno())
-    shutil.copymode(path, new)
-    os.replace(new, path)
+def read(path):
+    """Its text; bytes that are no UTF-8 (comments in Latin-1, say) come back unchanged with replace()."""
+    return path.read_text(encoding="utf-8", errors="surrogateescape")
+
+
+def replace(texts):
+    """Gives files new texts: all are written before the first is replaced."""
+    for path, text in texts.items():
+        new = path.with_name(path.name + ".new")
+        with open(new, "w", encoding="utf-8", errors="surrogateescape") as f:
+            f.write(text)
+            f.flush()
+            os.fsync(f.fileno())
+        shutil.copymode(path, new)
+    for path in texts:
+        os.replace(path.with_name(path.name + ".new"), path)
 
 
 def backup_of(folder, name):
@@ -267,33 +274,45 @@ def agreed(question, dialogs):
     if dialogs:
         import tkinter
         from tkinter import messagebox
-        root = tkinter.Tk()
+        try:
+            root = tkinter.Tk()
+        except tkinter.TclError as e:
+            raise UpdateError(f"{e}: without -d it asks on the terminal, with -f not at all") from None
         root.withdraw()
         answer = messagebox.askyesno("update_ini", question)
         root.destroy()
         return answer
-    return input(question + " [Y/n] ").strip().lower() in ("", "y", "yes")
+    try:
+        return input(question + " [Y/n] ").strip().lower() in ("", "y", "yes")
+    except EOFError:
+        print()
+        return False
+
+
+class UpdateError(Exception):
+    """The configuration stays as it was; the text says why."""
 
 
 def convert(path, version):
-    """Rewrites the configuration; returns the backup folder."""
-    text = path.read_text(errors="surrogateescape")
-    _, sections = read_sections(text)
-    files = hal_files(path.parent, sections)
-    backup = backup_of(path.parent, path.stem)
-    texts = {f: f.read_text(errors="surrogateescape") for f in files}
-    if version == "1.0" or "KINS" in sections and "JOINT_0" in sections:    # joints and axes are told apart already
-        known = value(sections.get("EMC"), "VERSION") is not None
-        head = r"(?m)(^\s*\[\s*EMC\s*\][^\[]*?^\s*VERSION\s*=\s*).*$" if known else r"(?m)^(\s*\[\s*EMC\s*\].*\n)"
-        changed, count = re.subn(head, r"\g<1>1.1" if known else r"\g<1>VERSION = 1.1\n", text, count=1)
-        replace(path, changed if count else "[EMC]\nVERSION = 1.1\n" + text)
-        for f, old in texts.items():
-            replace(f, rename_spindle_pins(old))
-    else:
-        old_config = OldConfig(text, list(texts.values()))
-        replace(path, old_config.text(backup.name))
-        for f, old in texts.items():
-            replace(f, old_config.hal_text(old))
+    """Rewrites the configuration, the INI file last; returns the backup folder."""
+    try:
+        text = read(path)
+        _, sections = read_sections(text)
+        texts = {f: read(f) for f in hal_files(path.parent, sections)}
+        backup = backup_of(path.parent, path.stem)
+        if version == "1.0" or "KINS" in sections and "JOINT_0" in sections:    # joints and axes are told apart already
+            known = value(sections.get("EMC"), "VERSION") is not None
+            head = r"(?m)(^\s*\[\s*EMC\s*\][^\[]*?^\s*VERSION\s*=\s*).*$" if known else r"(?m)^(\s*\[\s*EMC\s*\].*\n)"
+            changed, count = re.subn(head, r"\g<1>1.1" if known else r"\g<1>VERSION = 1.1\n", text, count=1)
+            new = {f: rename_spindle_pins(old) for f, old in texts.items()}
+            new[path] = changed if count else "[EMC]\nVERSION = 1.1\n" + text
+        else:
+            old_config = OldConfig(text, list(texts.values()))
+            new = {f: old_config.hal_text(old) for f, old in texts.items()}
+            new[path] = old_config.text(backup.name)
+        replace(new)
+    except OSError as e:
+        raise UpdateError(f"{path}: version {version} can't be updated to 1.1: {e.filename or path.parent}: {e.strerror} (the folder has to be writable)") from None
     return backup
 
 
@@ -309,7 +328,7 @@ def main(argv):
         return 0
     path = Path(re.sub(r"\.expanded$", "", files[0])).resolve()
     try:
-        _, sections = read_sections(path.read_text(errors="surrogateescape"))
+        _, sections = read_sections(read(path))
     except OSError as e:
         print(f"update_ini: {path}: {e.strerror}", file=sys.stderr)
         return 1
@@ -324,9 +343,17 @@ def main(argv):
                     "kept in a backup folder. Go on?")
         if value(sections.get("KINS"), "JOINTS") and version != "1.0":
             question = f"{path.name} looks as if it had been updated already. " + question
-        if not agreed(question, "-d" in flags):
-            return CANCELLED
-    backup = convert(path, version)
+        try:
+            if not agreed(question, "-d" in flags):
+                return CANCELLED if "-d" in flags else 0
+        except UpdateError as e:
+            print(f"update_ini: {e}", file=sys.stderr)
+            return 1
+    try:
+        backup = convert(path, version)
+    except UpdateError as e:
+        print(f"update_ini: {e}", file=sys.stderr)
+        return 1
     if "-f" in flags:
         shutil.rmtree(backup)
     else:

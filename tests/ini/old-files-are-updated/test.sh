@@ -14,3 +14,10 @@ echo "status $?"
 printf '[EMC]\nVERSION = 1.0\n' > "$out/c.ini"
 echo n | (cd "$out" && update_ini c.ini > /dev/null; echo "status $?"); cat "$out/c.ini"
 (cd "$out" && update_ini nowhere.ini 2>&1 | sed "s|$out|DIR|"; echo "status ${PIPESTATUS[0]}")
+# Bytes that are no UTF-8 stay; no answer means no; what can't be done is told, and nothing has changed.
+printf '# Gr\xfc\xdfe\n[EMC]\nVERSION = 1.0\n[HAL]\nHALFILE = d.hal\n' > "$out/d.ini"; printf '# Gr\xfc\xdfe\nnet f halui.spindle.forward\n' > "$out/d.hal"
+set +x
+(cd "$out"; update_ini d.ini < /dev/null > /dev/null; echo "status $?"; env -u DISPLAY update_ini -d d.ini 2>&1; echo "status $?"
+LC_ALL=C.UTF-8 update_ini -f d.ini; cat -v d.ini d.hal; ls | grep '^d'
+printf '[EMC]\nVERSION = 1.0\n' > d.ini; (ulimit -f 0; update_ini -f d.ini; echo "status $?"); cat d.ini
+) 2>&1 | sed "s|$out|DIR|g"
