@@ -134,10 +134,14 @@ bool replace_file(const std::string &filename, const std::string &text, bool bac
     }
     mode_t mode = 0644;
     struct stat st;
-    if (stat(place.c_str(), &st) == 0) mode = st.st_mode & 0777;
+    const bool there = stat(place.c_str(), &st) == 0;
+    if (there) mode = st.st_mode & 0777;
     const std::string fresh = place + ".new", old = place + ".bak";
     const int fd = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
     if (fd < 0) return false;
+    if (there && fchown(fd, st.st_uid, st.st_gid) != 0) {
+        // only root can give a file back to its owner
+    }
     bool good = write_all(fd, text) && fchmod(fd, mode) == 0 && fsync(fd) == 0;
     int why = errno;
     good = close(fd) == 0 && good;

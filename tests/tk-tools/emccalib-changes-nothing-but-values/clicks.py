@@ -66,6 +66,10 @@ else:
 os.chmod("machine.ini", 0o644)
 with hand.answers("cancel"):
     hand.click(window.quit_button)
+hal.set_p("pid.1.Igain", float("inf"))
+with hand.answers("ok"):
+    hand.click(window.save_button)
+hal.set_p("pid.1.Igain", 0.75)
 hand.click(window.save_button)
 print(said())
 hand.click(window.save_button)

@@ -5,8 +5,7 @@ load() returns warnings; a line that cannot be used changes nothing. `resolve(ki
 the hal_type_t of a source, 0 when there is none.
 """
 
-import os
-import tempfile
+import kerf_tooltext
 
 from . import settings as st
 
@@ -156,23 +155,5 @@ def text(s):
     return "\n".join(out) + "\n"
 
 
-def replace_file(path, content):
-    """Writes a whole file: the old one or the new one is there, whatever happens."""
-    folder = os.path.dirname(os.path.abspath(path))
-    handle, name = tempfile.mkstemp(prefix=".halscope-", dir=folder)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as f:
-            f.write(content)
-            f.flush()
-            os.fsync(f.fileno())
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(name, 0o666 & ~mask)
-        os.replace(name, path)
-    except BaseException:
-        os.unlink(name)
-        raise
-
-
 def save(path, settings):
-    replace_file(path, text(settings))
+    kerf_tooltext.replace_file(path, text(settings).encode(), False)

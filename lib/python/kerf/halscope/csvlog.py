@@ -16,9 +16,10 @@ from array import array
 from dataclasses import dataclass
 from decimal import Decimal
 
+import kerf_tooltext
+
 from ..language import _
 from . import settings as st
-from .configfile import replace_file
 
 
 class LogError(Exception):
@@ -54,7 +55,7 @@ def text(period, channels, values):
 
 
 def save(path, period, channels, values):
-    replace_file(path, text(period, channels, values))
+    kerf_tooltext.replace_file(path, text(period, channels, values).encode(), False)
 
 
 def parse(lines):

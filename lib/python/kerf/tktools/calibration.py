@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tuning values: pins that HAL files set from the INI file, and writing their values back into it."""
 
+import math
 import os
 import re
 from dataclasses import dataclass
@@ -208,6 +209,9 @@ class Calibration:
         """The values in HAL go into the file; what was changed, one text each. Raises NotPossible."""
         if self.ini.name.endswith(".ini.expanded"):
             raise NotPossible(_("%s is made from another INI file each time the machine starts: values are to be changed in that one (%s)") % (self.ini, self.ini.name[:-len('.expanded')]))
+        for value in (v for values in self.sections.values() for v in values):
+            if isinstance(now := value.read(), float) and not math.isfinite(now):
+                raise NotPossible(_("[%s]%s: the value in HAL is %s: an INI file holds numbers only; nothing is saved") % (value.section, value.name, now))
         changes = self.changes()
         for path in {c[0] for c in changes}:
             if not os.access(path, os.W_OK):

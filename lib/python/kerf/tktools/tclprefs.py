@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Preference files that are Tcl scripts: read in a safe interpreter, written whole."""
 
-import os
 import sys
 import tkinter
+
+import kerf_tooltext
 
 
 def read(path, commands=()):
@@ -59,9 +60,4 @@ def quoted(value):
 
 def write(path, text):
     """The whole file at once. Raises OSError; then the old file is still there."""
-    new = f"{path}.new"
-    with open(new, "w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(new, path)
+    kerf_tooltext.replace_file(str(path), text.encode(), False)
