@@ -61,11 +61,10 @@ print([r.get("T") for r in window.table.rows], "delete:", state("Delete"), root.
 hand.click(buttons["SaveFile"])
 print(status(), root.title())
 open("tool.tbl", "a").write("T9 P9 ;another hand\n")
-window.look()
-print(status())
 hand.cleared(cell(0, "Z"), "5")
 with hand.answers("no"):
     hand.click(buttons["SaveFile"])
+print(status())
 with hand.answers("cancel"):
     hand.click(buttons["Quit"])
 print("FP-186: asked, still open, edited:", bool(root.winfo_exists()), window.table.modified, window.table.rows[0].get("Z"))

@@ -146,6 +146,7 @@ class Window:
             self.show_problems(problems)
             self.say(_("Not saved"), True)
             return False
+        self.look_at_file()
         if self.warned and not messagebox.askyesno("tooledit", _("%s.\nReplace it with what is shown here?") % self.warned, parent=self.root):
             return False
         try:
@@ -205,6 +206,9 @@ class Window:
         elif not button.winfo_manager():
             button.pack(side="left", expand=True, fill="x", padx=self.style.px(2), before=self.buttons["Quit"])
         button.configure(state="normal" if state == "ready" else "disabled")
+        self.look_at_file()
+
+    def look_at_file(self):
         stamp = self.table.look()
         if stamp != self.table.stamp:
             self.table.stamp = stamp
