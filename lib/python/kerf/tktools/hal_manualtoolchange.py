@@ -39,7 +39,7 @@ class Exchange:
 
     def __init__(self, component, sleep=clock.sleep):
         self.pins, self.sleep = component, sleep
-        self.asking = False
+        self.asking, self.number = False, None      # of the request that is shown
 
     def step(self):
         """Returns "ask" when a dialog should open, "close" when it should go, else None."""
@@ -52,10 +52,14 @@ class Exchange:
         elif not pins["changed"]:
             if pins["change_button"]:
                 return self.confirm()
-            if not self.asking:
-                self.asking = True
+            if not self.asking or self.other_tool():
+                self.asking, self.number = True, pins["number"]
                 return "ask"
         return None
+
+    def other_tool(self):
+        """Another tool is wanted than the one that is shown."""
+        return self.asking and self.pins["number"] != self.number
 
     def confirm(self):
         """The operator says that the tool is in place.
@@ -145,6 +149,8 @@ class Window:
             self.dialog = None
 
     def confirm(self):
+        if self.exchange.other_tool():
+            return          # the next step shows it
         self.exchange.confirm()
         self.close()
 
