@@ -13,6 +13,7 @@ if (here.parent / "lib/python/kerf").is_dir():
 
 import hal
 from hal import query
+from kerf import tkstyle
 from kerf.language import _, N_
 
 POLL_MS = 1000
@@ -430,13 +431,8 @@ def main():
         offsets = Offsets(options, joint_numbers(options.axes, kinematics()))
     except (Unusable, RuntimeError) as error:
         sys.exit(f"moveoff_gui: {error}")
-    import tkinter
-    try:
-        root = tkinter.Tk(className="moveoff_gui")
-    except tkinter.TclError as error:
-        sys.exit(f"moveoff_gui: {error}")
-    Window(root, offsets, options)
-    root.mainloop()
+    root = tkstyle.open_display("moveoff_gui", "moveoff_gui")
+    tkstyle.run(root, Window(root, offsets, options).close)
 
 
 if __name__ == "__main__":

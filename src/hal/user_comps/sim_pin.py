@@ -55,7 +55,7 @@ class Row:
     def __init__(self, parent, style, item, mode, choice, say):
         import tkinter as tk
         from tkinter import ttk
-        self.tk, self.ttk, self.style, self.item, self.say = tk, ttk, style, item, say
+        self.tk, self.ttk, self.style, self.item, self.say, self.held = tk, ttk, style, item, say, None
         self.frame = ttk.LabelFrame(parent, text=f"{item.name} ({item.kind} {_(item.what)})", padding=style.px(6))
         self.frame.pack(fill="x", padx=style.px(6), pady=style.px(3))
         (self.bit if item.kind == "bit" else self.numeric)(mode, choice)
@@ -72,11 +72,14 @@ class Row:
 
     def bit(self, mode, choice):
         tk, ttk, button = self.tk, self.ttk, Button(self.item, mode)
+        self.held, self.key_up = button, None
+        self.key_down = False
         self.button = tk.Button(self.frame, width=10, pady=self.style.roomy(3, 5))
         self.button.bind("<ButtonPress-1>", lambda _event: self.press(button))
         self.button.bind("<ButtonRelease-1>", lambda _event: self.try_to(button.release))
-        self.button.bind("<KeyPress-space>", lambda _event: self.press(button))
-        self.button.bind("<KeyRelease-space>", lambda _event: self.try_to(button.release))
+        self.button.bind("<KeyPress-space>", self.key_pressed)
+        self.button.bind("<KeyRelease-space>", self.key_released)
+        self.button.bind("<FocusOut>", lambda _event: self.key_down and self.let_go())
         self.button.pack(side="left")
         if choice:
             self.mode = tk.StringVar(value=mode)
@@ -89,6 +92,30 @@ class Row:
     def press(self, button):
         if self.try_to(button.press):
             self.frame.after(PULSE_MS, lambda: self.try_to(button.end_pulse))
+
+    def key_pressed(self, _event):
+        """The first press only: a held key repeats release and press, together."""
+        if self.key_up:
+            self.frame.after_cancel(self.key_up)
+            self.key_up = None
+        elif not self.key_down:
+            self.key_down = True
+            self.press(self.held)
+
+    def key_released(self, _event):
+        if self.key_down and not self.key_up:
+            self.key_up = self.frame.after(1, self.let_go)
+
+    def let_go(self):
+        if self.key_up:
+            self.frame.after_cancel(self.key_up)
+        self.key_down, self.key_up = False, None
+        self.try_to(self.held.release)
+
+    def finish(self):
+        """A bit that is set only as long as something is pressed does not stay set behind a closed window."""
+        if self.held:
+            self.try_to(self.held.finish)
 
     def numeric(self, _mode, _choice):
         ttk = self.ttk
@@ -132,7 +159,13 @@ class Window:
         self.status = ttk.Label(root, anchor="w", style="Bad.TLabel", wraplength=style.px(480), justify="left")
         self.status.pack(fill="x", padx=style.px(6))
         root.resizable(False, False)
+        root.protocol("WM_DELETE_WINDOW", self.close)
         self.poll()
+
+    def close(self):
+        for row in self.rows:
+            row.finish()
+        self.root.destroy()
 
     def say(self, text):
         self.status.configure(text=text)
@@ -159,8 +192,7 @@ def main():
     except (ValueError, NotWritable, RuntimeError) as error:
         sys.exit(f"sim_pin: {error}")
     root = tkstyle.open_display("sim_pin", "Sim_pin")
-    Window(root, options.title, items)
-    root.mainloop()
+    tkstyle.run(root, Window(root, options.title, items).close)
 
 
 if __name__ == "__main__":

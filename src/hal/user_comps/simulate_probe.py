@@ -114,8 +114,7 @@ def main():
         print(error)
         return 1
     root = tkstyle.open_display("simulate_probe", "Simulate_probe")
-    Window(root, Probe(item))
-    root.mainloop()
+    tkstyle.run(root, Window(root, Probe(item)).close)
     return 0
 
 

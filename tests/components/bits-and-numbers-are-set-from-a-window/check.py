@@ -88,6 +88,18 @@ def window(folder: str) -> None:
     release(hold)
     check("let go", hal.get_p("mux.sel"), False)
     check("no choice", hasattr(hold, "mode"), False)
+    edges, put = [], hold.item.set
+    hold.item.set = lambda value: (edges.append(value), put(value))
+    hold.button.focus_force()
+    root.update()
+    for event in ("<KeyPress-space>", "<KeyRelease-space>") * 3 + ("<KeyPress-space>",):     # a held key repeats
+        hold.button.event_generate(event)
+    root.update()
+    check("held by a key", (hal.get_p("mux.sel"), edges), (True, [True]))
+    toggle.button.focus_force()
+    while hal.get_p("mux.sel"):
+        root.update()
+    check("let go with the focus", edges, [True, False])
     press(pulse)
     check("pulse", hal.get_p("inv.in"), True)
     release(pulse)
@@ -125,6 +137,10 @@ def window(folder: str) -> None:
             mistakes.append(f"{text}: {message!r}")
     check("unchanged", (hal.get_p("conv.in"), hal.get_p("mux.in0"), hal.get_p("back.in")), (-5, 76.5, 1))
     check("complaint goes", enter(real, "1"), "")
+    press(hold)
+    for row in window.rows:
+        row.finish()
+    check("a held button ends with the window", hal.get_p("mux.sel"), False)
     hal.set_p("conv.in", 77)
     while s32.value["text"] != "77":        # followed live
         root.update()

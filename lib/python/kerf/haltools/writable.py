@@ -94,15 +94,24 @@ class Button:
 
     def __init__(self, item, mode="toggle"):
         self.item, self.mode = item, mode
+        self.ending = None          # the mode of a press whose bit is still to be cleared
 
     def press(self):
         """True when the caller must call end_pulse() after a while."""
         self.item.set(not self.item.get() if self.mode == "toggle" else True)
+        self.ending = None if self.mode == "toggle" else self.mode
         return self.mode == "pulse"
 
     def release(self):
-        if self.mode == "hold":
-            self.item.set(False)
+        if self.ending == "hold":
+            self.finish()
 
     def end_pulse(self):
-        self.item.set(False)
+        if self.ending == "pulse":
+            self.finish()
+
+    def finish(self):
+        """Nothing stays set that was to be cleared later."""
+        if self.ending:
+            self.item.set(False)
+            self.ending = None
