@@ -59,13 +59,15 @@ class PinHistogram:
         self.module = "histobins" if o.legacy else "histobinstream"
         if not hal.component_exists(self.module):
             keys = [] if o.legacy else ["keys=" + ",".join(str(KEY + i) for i in range(INSTANCES))]
-            halcmd("loadrt", self.module, f"count={INSTANCES}", *keys)
+            try:
+                halcmd("loadrt", self.module, f"count={INSTANCES}", *keys)
+            except ToolError:           # another histogram that starts now may load it, too
+                if not clock.wait_until(lambda: hal.component_exists(self.module) and hal.component_is_ready(self.module), 1.0, 0.02):
+                    raise
             net = Netlist.running()
-        self.index = self._free_index(net)
+        self.component, self.index = self._take_index(net)
         self.prefix = f"{self.module}.{self.index}"
         self.thread = self._thread_of(net, pin)
-        self.component = hal.component(f"hal-histogram{self.index}")
-        self.component.ready()
         self.signal, self.own_signal = pin["signal"], False
         if not self.signal:
             self.signal, self.own_signal = f"hal-histogram.{self.index}", True
@@ -80,10 +82,18 @@ class PinHistogram:
         self.figures = {}
         self.reset()
 
-    def _free_index(self, net: Netlist) -> int:
+    def _take_index(self, net: Netlist):
+        """The component that owns a free instance, and its number."""
         for i in range(INSTANCES):
-            if f"{self.module}.{i}" not in net.order and not self.hal.component_exists(f"hal-histogram{i}"):
-                return i
+            name = f"hal-histogram{i}"
+            if f"{self.module}.{i}" in net.order or self.hal.component_exists(name):
+                continue
+            try:
+                component = self.hal.component(name)
+            except self.hal.error:      # another one was faster
+                continue
+            component.ready()
+            return component, i
         raise ToolError(f"{INSTANCES} histograms are running already")
 
     def _thread_of(self, net: Netlist, pin: dict) -> str:
@@ -138,6 +148,8 @@ class PinHistogram:
         return [f"{elapsed_s:5d} s {self.summary()} below: {self.low} above: {self.high}", *bins]
 
     def close(self):
+        if not self.hal.component_exists(self.module):      # the session has ended
+            return
         for words in (("delf", self.prefix, self.thread), ("unlinkp", f"{self.prefix}.{self.input}")):
             try:
                 halcmd(*words)

@@ -76,6 +76,7 @@ class Chart(tk.Canvas):
             return
         bars = self.bars
         self.create_text(px(8), px(26), anchor="nw", text=bars.text, font="TkDefaultFont", fill=ink, tags="figures")
+        self.create_text(width - px(8), px(6), anchor="ne", text=_("highest bar: %d") % max(bars.counts, default=0), font="TkDefaultFont", fill=ink)
         step = (width - 2 * margin) / max(1, len(bars.counts))
         for i, h in enumerate(bar_heights(bars.counts, floor - ceiling, self.logarithmic)):
             if h > 0:
