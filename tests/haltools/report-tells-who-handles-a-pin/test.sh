@@ -19,6 +19,10 @@ halreport | sed '/^HAL report/d; /^Version/d; /^Machine/d'
 halreport report.txt | sed "s|$PWD|.|"
 diff <(halreport | tail -n +2) <(tail -n +2 report.txt) && echo same
 halreport /no/such/folder/report.txt; echo "=> $?"
+unread() { /usr/bin/python3 -c 'import os, subprocess, sys; r, w = os.pipe(); os.close(r); print(sys.argv[1], subprocess.run(sys.argv[1:], stdout=w, stderr=subprocess.PIPE, text=True).stderr)' "$@"; }
+unread halreport
+unread hal-histogram --nox and2.0.time
+halcmd list funct 'histobin*'
 halreport a b; echo "=> $?"
 rm -f t.hal report.txt
 halrun -U 2> /dev/null

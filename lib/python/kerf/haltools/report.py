@@ -10,6 +10,7 @@ import datetime
 import json
 import os
 import platform
+import signal
 import sys
 
 from .session import ToolError, halcmd
@@ -111,6 +112,7 @@ def main(arguments: list[str]) -> int:
         print(f"halreport: {problem}", file=sys.stderr)
         return 1
     if not arguments:
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)   # halreport | head
         sys.stdout.write(text)
         return 0
     try:

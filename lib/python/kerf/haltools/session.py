@@ -65,6 +65,8 @@ def run_tool(program: str, work, own_session: bool) -> int:
             work()
     except KeyboardInterrupt:
         pass
+    except BrokenPipeError:             # nobody reads any more
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except ToolError as problem:
         print(f"{program}: {problem}", file=sys.stderr)
         return 1

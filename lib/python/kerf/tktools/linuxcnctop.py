@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """linuxcnctop [-ini FILE] [-t]: every status value of the controller; -t prints it once on the terminal."""
 
+import signal
 import tkinter as tk
 from tkinter import ttk
 
@@ -61,6 +62,7 @@ def names(stat):
 
 
 def terminal(stat):
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)       # linuxcnctop -t | head
     for name in names(stat):
         text = shown(stat, name)
         if text is not None:
