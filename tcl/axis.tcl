@@ -77,6 +77,20 @@ proc relief {condition w} {
 
 # -- tool bar ------------------------------------------------------------------------------
 
+# Tk dims the picture of a disabled button with dots in the colour that the ground had when the button was made; all
+# buttons share these dots. They get the colour of the present ground when a chosen and disabled one is drawn.
+proc ::axis::renew_dots {} {
+    variable first_face
+    set w .toolbar.dots
+    radiobutton $w -image [load_image stop] -indicatoron 0 -state disabled -variable ::axis::dots -value 1 -background $first_face
+    set ::axis::dots 1
+    place $w -x -200 -y 0
+    update idletasks
+    $w configure -background $::axis::colour(face) -selectcolor $::axis::colour(face)
+    update idletasks
+    destroy $w
+}
+
 proc load_image {name} { return [::axis::icon $name] }
 
 proc ::axis::tool {name image command help} {
@@ -95,6 +109,7 @@ proc pause_image_normal {} { .toolbar.program_pause configure -image [load_image
 proc pause_image_override {} { .toolbar.program_pause configure -image [load_image pause_inhibited] }
 
 proc ::axis::build_toolbar {} {
+    variable first_face $::axis::colour(face)
     frame .toolbar
     tool machine_estop estop {} [_ "Toggle Emergency Stop \[F1\]"]
     .toolbar.machine_estop configure -command {}
@@ -337,7 +352,7 @@ proc ::axis::build_manual {f} {
     setup_widget_accel $f.spindlef.brake [_ "Brake"]
     marked $f.spindlef.brake check
     pack $f.spindlef.brake -in $f.spindlef.row2 -side left -padx 6
-    pack $f.spindlef.row1 $f.spindlef.row2 -anchor w -pady 2 -side $::axis::spindle_side
+    pack $f.spindlef.row1 $f.spindlef.row2 -anchor w -pady 2
     frame $f.space2 -height $::axis::gap
     label $f.coolant -text [_ "Coolant:"] -anchor w
     checkbutton $f.mist -variable mist -command mist -anchor w -takefocus 0
@@ -420,7 +435,7 @@ proc ::axis::show_waiting {lines} {
 # Override slider: percent, with an entry-like label.
 proc ::axis::build_override {w text variable max command} {
     frame $w
-    label $w.l -text $text -anchor w -width 17
+    label $w.l -text $text -anchor w -width $::axis::name_width
     scale $w.foscale -from 0 -to $max -orient horizontal -showvalue 0 -variable $variable -command $command -takefocus 0
     label $w.foentry -textvariable $variable -width 4 -anchor e
     label $w.m -text %
@@ -432,13 +447,19 @@ proc ::axis::build_override {w text variable max command} {
 # Speed slider: position 0..1, value shown in units/min.
 proc ::axis::build_speed {w text value variable command} {
     frame $w
-    label $w.l0 -text $text -anchor w -width 17
+    label $w.l0 -text $text -anchor w -width $::axis::name_width
     scale $w.s -from 0.06 -to 1 -resolution 0.005 -orient horizontal -showvalue 0 -variable $variable -command $command -takefocus 0
     label $w.l -textvariable $value -width 6 -anchor e
-    label $w.l1 -width 7 -anchor w
+    label $w.l1 -width [longest 7 [_ "deg/min"]] -anchor w
     pack $w.l0 -side left
     pack $w.l1 $w.l -side right
     pack $w.s -side left -fill x -expand 1
+}
+
+# Letters of the longest text, at least so many.
+proc ::axis::longest {least args} {
+    foreach text $args { set least [expr {max($least, [string length $text])}] }
+    return $least
 }
 
 proc ::axis::build_left {top} {
@@ -448,6 +469,7 @@ proc ::axis::build_left {top} {
     build_manual [$top.tabs getframe manual]
     build_mdi [$top.tabs getframe mdi]
     $top.tabs raise manual
+    set ::axis::name_width [longest 15 [_ "Feed Override:"] [_ "Rapid Override:"] [_ "Spindle Override:"] [_ "Jog Speed:"] [_ "Max Velocity:"]]
     build_override $top.feedoverride [_ "Feed Override:"] feedrate 120 set_feedrate
     build_override $top.rapidoverride [_ "Rapid Override:"] rapidrate 100 set_rapidrate
     build_override $top.spinoverride [_ "Spindle Override:"] spindlerate 120 set_spindlerate
@@ -496,17 +518,59 @@ proc ::axis::build_pane {} {
 
 proc ::axis::build_status {} {
     frame .info
-    label .info.task_state -textvariable task_state_string -width 16 -anchor w -relief flat
-    label .info.tool -textvariable tool -anchor w -width 44
+    label .info.task_state -textvariable task_state_string -width [longest 6 [_ "ESTOP"] [_ "OFF"] [_ "ON"]] -anchor w -relief flat
+    label .info.tool -textvariable tool -anchor w
     label .info.control -textvariable control_name -anchor w
-    label .info.position -textvariable position -anchor w -width 30
+    label .info.position -textvariable position -anchor e
     label .info.time -textvariable run_time -anchor e
     canvas .info.progress -width 1 -height 1 -highlightthickness 0
     pack .info.task_state -side left -padx 6
     pack .info.control -side left
     pack .info.time -side right -padx 6
-    pack .info.tool -side left -padx 6
-    pack .info.position -side left -padx 6 -fill x -expand 1
+    pack .info.position -side right -padx 12
+    pack .info.tool -side left -padx 6 -fill x -expand 1
+}
+
+# What depends on how low the screen is.
+proc ::axis::arrange {} {
+    set f .pane.top.tabs.fmanual
+    foreach row {row1 row2} {
+        if {[winfo manager $f.spindlef.$row] eq "pack"} { pack configure $f.spindlef.$row -side $::axis::spindle_side }
+    }
+    $f.space1 configure -height $::axis::gap
+    $f.space2 configure -height $::axis::gap
+    .pane.bottom.t.text configure -height $::axis::code_lines
+    update idletasks
+    foreach book {tabs right} { .pane.top.$book compute_size }
+    .pane paneconfigure .pane.bottom -height [winfo reqheight .pane.bottom]
+}
+
+# Menus that are higher than the screen go on beside, if possible at a separator.
+proc ::axis::break_menus {{menu .menu}} {
+    foreach child [winfo children $menu] { break_menus $child }
+    if {$menu eq ".menu" || [$menu index end] eq "none"} return
+    set last [$menu index end]
+    for {set i 0} {$i <= $last} {incr i} {
+        if {[$menu type $i] ni {tearoff separator} && [$menu entrycget $i -columnbreak]} { $menu entryconfigure $i -columnbreak 0 }
+    }
+    update idletasks
+    set room [expr {[winfo screenheight .] - 8}]
+    if {[winfo reqheight $menu] <= $room} return
+    set top 0
+    set after 0
+    set tops {}
+    for {set i 0} {$i <= $last} {incr i} { lappend tops [$menu yposition $i] }
+    lappend tops [winfo reqheight $menu]
+    for {set i 1} {$i <= $last} {incr i} {
+        if {[lindex $tops $i+1] - $top > $room} {
+            set at [expr {$after > 0 ? $after + 1 : $i}]
+            $menu entryconfigure $at -columnbreak 1
+            set top [lindex $tops $at]
+            set after 0
+        }
+        if {[$menu type $i] eq "separator"} { set after $i }
+    }
+    update idletasks
 }
 
 # Windows that are made hidden and shown from the menu.
@@ -531,6 +595,7 @@ proc ::axis::build {} {
     build_toolbar
     build_pane
     build_status
+    arrange
     build_window .about [_ "About AXIS"]
     build_window .keys [_ "AXIS Quick Reference"]
     grid .toolbar -row 0 -column 0 -columnspan 3 -sticky ew

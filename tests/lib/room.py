@@ -17,6 +17,7 @@ import re
 import tkinter
 from types import SimpleNamespace
 
+PARKED = -40                # of a canvas: what lies above that is only measured there (BWidget)
 SLACK = 1                   # pixels that nobody sees
 CONTRAST = 4.5
 CLASSIC = ("Label", "Button", "Checkbutton", "Radiobutton", "Menubutton", "Message")
@@ -124,10 +125,13 @@ class Look:
                 self.menu(child)
             elif str(self.call("winfo", "toplevel", child)) == child:
                 self.window(child)
+            elif not self.number(child, "ismapped"):
+                if self.number(path, "viewable") and self.master(child) and kind not in ("Frame", "TFrame"):
+                    self.tell(child, "hidden", "has no room at all")
             elif self.number(child, "viewable"):
                 box = self.box(child)
                 if kind not in ("Canvas", "Text") or str(self.call("winfo", "manager", child)) != "canvas":
-                    laid.append((child, kind, box))
+                    laid.append((child, box))
                 below = self.ways(child, kind)
                 inner = tuple(f(a, b) for f, a, b in zip((max, max, min, min), visible, box))
                 self.widget(child, kind, box, visible, scrolls)
@@ -142,13 +146,21 @@ class Look:
         return False, False
 
     def overlaps(self, holder, laid):
-        laid = [(c, k, b) for c, k, b in laid if str(self.call("winfo", "manager", c)) in ("grid", "pack", "panedwindow")]
-        for n, (a, _, p) in enumerate(laid):
-            for b, _, q in laid[n + 1:]:
+        if str(self.call("winfo", "class", holder)) == "TPanedwindow":
+            return
+        laid = [(child, self.master(child), box) for child, box in laid]
+        for n, (a, holds, p) in enumerate(laid):
+            for b, other, q in laid[n + 1:]:
                 width, height = min(p[2], q[2]) - max(p[0], q[0]), min(p[3], q[3]) - max(p[1], q[1])
-                if width > SLACK and height > SLACK and str(self.call("winfo", "manager", a)) == str(self.call("winfo", "manager", b)):
-                    if str(self.call("winfo", "class", holder)) != "TPanedwindow":
-                        self.tell(b, "overlap", f"lies {width}x{height} over {a}")
+                if width > SLACK and height > SLACK and holds and holds == other:
+                    self.tell(b, "overlap", f"lies {width}x{height} over {a}")
+
+    def master(self, path):
+        """What lays a widget out, and in what; empty for one that floats on purpose."""
+        manager = str(self.call("winfo", "manager", path))
+        if manager in ("grid", "pack"):
+            return manager + str(dict(zip(*[iter(map(str, self.listed(self.call(manager, "info", path))))] * 2))["-in"])
+        return ""
 
     def widget(self, path, kind, box, visible, scrolls):
         width, height = box[2] - box[0], box[3] - box[1]
@@ -192,14 +204,14 @@ class Look:
             self.tell(path, "cut", f"needs {self.number(path, 'reqheight')} pixels of height, has {height}")
         if text and wrap:
             for word in text.split():
-                if self.measure(font, word) > wrap:
+                if "/" not in word and self.measure(font, word) > wrap:
                     self.tell(path, "cut", f"{word!r} is broken at {wrap} pixels")
         if text:
             self.contrast(path, kind)
 
     def field(self, path, kind, width, height):
         font = self.font(path, "TkTextFont" if kind.startswith("T") else kind)
-        values = [str(v) for v in self.listed(self.option(path, "values"))] if kind != "Entry" and kind != "TEntry" else []
+        values = [str(v) for v in self.listed(self.call(path, "cget", "-values"))] if kind in ("TCombobox", "TSpinbox") else []
         text = str(self.call(path, "get"))
         state = self.option(path, "state", "normal")
         used = 4 + (self.pixels(path, kind, "arrowsize") + 2 * self.pixels(path, kind, "padding") if kind.startswith("T") else 0)
@@ -222,7 +234,7 @@ class Look:
             if str(self.call(path, "type", item)) != "text" or str(self.call(path, "itemcget", item, "-state")) == "hidden":
                 continue
             text, box = str(self.call(path, "itemcget", item, "-text")), self.listed(self.call(path, "bbox", item))
-            if not text.strip() or not box:
+            if not text.strip() or not box or float(str(box[3])) < PARKED:
                 continue
             x1, y1, x2, y2 = (float(str(v)) for v in box)
             x1, y1, x2, y2 = x1 + 1 - left, y1 + 1 - top, x2 - 1 - left, y2 - 1 - top

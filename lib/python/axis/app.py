@@ -568,6 +568,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.fill_windows()
         self.finish_pins()
         self.start_tabs()
+        self.fit_screen()
         self.command.teleop_enable(0)
         self.command.wait_complete()
         self.exit_status = 0

@@ -151,8 +151,8 @@ def make(app):
             rows = program.properties(app.shown_file, app.loaded_file if app.is_filtered else None, app.preview.program,
                                       app.settings, bool(v.metric.get()), _, app.estimate.total)
             rows += waits.rows(app.estimate.times and app.estimate.times.waits, app.waits.values, _)
-            text = "\n".join(f"{name + ':':<18} {value}" for name, value in rows)
-            dialogs.ask(root, _("G-Code Properties"), text, "info", 0, _("OK"), escape=0)
+            text = "\n".join(f"{name + ':':<18} " + str(value).replace("\n", "\n" + 19 * " ") for name, value in rows)
+            dialogs.ask(root, _("G-Code Properties"), text, "info", 0, _("OK"), escape=0, font="TkFixedFont")
 
         def clear_recent_files(*event):
             app.prefs.putpref("recentfiles", [], repr)

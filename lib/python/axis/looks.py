@@ -4,16 +4,20 @@
 import tkinter as tk
 import tkinter.ttk
 
-from kerf import tkstyle
+from kerf import tkfit, tkstyle
 
+from . import dialogs
 from .icons import Icons
+from .notify import WRAP_PX
 
 # What AXIS has beside the colours of all Tk programs.
 LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#70767f", "chosen": "#b9d3ee", "trough": "#c9c5bd", "mark": "#fffffe"}
 DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#3f5f86", "trough": "#44474c", "mark": "#1e1f23"}
-TOUCH, TOUCH_LOW = 1.45, 1.2     # buttons and sliders for gloves; on a low screen
+TOUCH = 1.7                     # buttons and sliders for gloves, where the screen has room for them
+USUAL_WINDOW, SASH = (1280, 860), 10
+HELP_LETTERS = 40                # of a line of the quick reference
+TOUCH_STEP, LEAST_TOUCH = 0.05, 1.1
 SCALES = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0)      # 0: from the screen
-LEAST_WINDOW = (760, 520)
 
 
 class LooksPart:
@@ -22,17 +26,18 @@ class LooksPart:
     def first_look(self):
         """Before the widgets are made."""
         root = self.root
+        self.most_scale, self.most_touch = tkstyle.MAX_SCALE, TOUCH      # less where the screen has no room for more
         root.tk.eval("namespace eval ::axis {}")
         root.tk.call("font", "create", "AxisBold", "-family", "DejaVu Sans", "-size", -13, "-weight", "bold")
         self.apply_style()
         self.icons = Icons(root, self.icon_px(), self.style.dark)
-        width, height = root.winfo_screenwidth(), root.winfo_screenheight()
-        px = self.style.px
-        root.geometry(f"{min(px(1280), width)}x{min(px(860), height - 40)}")
-        low = self.low() or (self.touch() and height < 800)
-        for name, value in (("code_lines", 3 if self.low() else 4 if low else 9), ("gap", 2 if low else px(8)), ("spindle_side", "left" if low else "top")):
-            root.tk.setvar(f"::axis::{name}", value)
-        root.minsize(min(LEAST_WINDOW[0], width), min(LEAST_WINDOW[1], height - 40))
+        self.layout()
+
+    def layout(self):
+        """What a low screen has beside each other, or less of."""
+        low = self.low() or (self.touch() and self.root.winfo_screenheight() < 800 * self.style.scale)
+        for name, value in (("code_lines", 3 if self.low() else 4 if low else 9), ("gap", 2 if low else self.style.px(8)), ("spindle_side", "left" if low else "top")):
+            self.root.tk.setvar(f"::axis::{name}", value)
 
     def touch(self):
         return self.prefs.getpref("large_touch_targets", False)
@@ -43,10 +48,10 @@ class LooksPart:
 
     def roominess(self):
         """How much larger than usual buttons and sliders are."""
-        return 1.0 if not self.touch() else TOUCH_LOW if self.low() else TOUCH
+        return min(TOUCH, self.most_touch) if self.touch() else 1.0
 
     def padding(self):
-        return self.style.px(9 if self.roominess() > TOUCH_LOW else 5 if self.roominess() > 1 else 2)
+        return self.style.px(2 + 7 * (self.roominess() - 1) / (TOUCH - 1))
 
     def letters_px(self):
         return -int(self.root.tk.call("font", "configure", "TkDefaultFont", "-size"))     # tkstyle gives pixels
@@ -57,7 +62,7 @@ class LooksPart:
     def apply_style(self):
         """Fonts, option database, colours of the Tcl side."""
         root = self.root
-        self.style = style = tkstyle.apply(root, self.prefs.getpref("dark_theme", False), fits=False)
+        self.style = style = tkstyle.apply(root, self.prefs.getpref("dark_theme", False), fits=False, most=self.most_scale)
         colours = dict(style.colours) | (DARK if style.dark else LIGHT)
         for name, value in colours.items():
             root.tk.setvar(f"::axis::colour({name})", value)
@@ -69,9 +74,42 @@ class LooksPart:
                                ("*Scale.borderWidth", 1), ("*Scale.width", style.px(15 * touch * touch)),
                                ("*Scale.sliderLength", style.px(28 * touch)), ("*Button.padY", pad), ("*Button.padX", style.px(8)),
                                ("*Checkbutton.selectColor", colours["mark"]), ("*Radiobutton.selectColor", colours["mark"]),
-                               ("*Checkbutton.padY", pad // 2), ("*Radiobutton.padY", pad // 2), ("*readonlyBackground", colours["field"])):
+                               ("*Checkbutton.padY", pad * 2 // 3), ("*Radiobutton.padY", pad * 2 // 3), ("*readonlyBackground", colours["field"])):
             root.option_add(pattern, value, "startupFile")
         tkinter.ttk.Style(root).configure("TCombobox", padding=style.px(8 if touch > 1 else 3))
+
+    def asked(self):
+        """The size with room for everything. Panes are asked one by one: together they ask for what they have."""
+        number = lambda what, path: int(self.root.tk.call("winfo", what, path))     # noqa: E731
+        panes = (".pane.top", ".pane.bottom")
+        height = self.root.winfo_reqheight() - number("reqheight", ".pane") + sum(number("reqheight", p) for p in panes) + SASH
+        return max(self.root.winfo_reqwidth(), *(number("reqwidth", p) for p in panes)), height
+
+    def fit_screen(self):
+        """Letters, then what is large for touch, become smaller until the window has its room on the screen."""
+        root = self.root
+        root.tk.call("::axis::arrange")
+        for _ in range(2 * tkfit.STEPS):
+            root.update_idletasks()
+            share = tkfit.share_of(root, self.asked())
+            if share >= 1:
+                break
+            if self.style.scale > 1:
+                self.most_scale = max(1.0, self.style.scale * tkfit.step_for(share))
+            elif self.roominess() > LEAST_TOUCH:
+                self.most_touch = self.roominess() - TOUCH_STEP
+            else:
+                break
+            self.restyle()
+        asked, room = self.asked(), tkfit.room_of(root)
+        root.minsize(*map(min, asked, room))
+        if root.winfo_ismapped():
+            tkfit.enlarge(root, asked)
+        else:
+            root.geometry("{}x{}".format(*map(min, map(max, asked, map(self.style.px, USUAL_WINDOW)), room)))
+        root.tk.call("::axis::break_menus")
+        for label in self.widgets.help_window.winfo_children():
+            label.configure(wraplength=dialogs.letters(root, HELP_LETTERS))
 
     def restyle(self):
         """After a change of theme, scale or touch: every widget follows."""
@@ -85,9 +123,12 @@ class LooksPart:
             for page in self.root.tk.splitlist(self.root.tk.call(book, "pages")):
                 self.root.tk.call(book, "itemconfigure", page, "-background", self.colours["face"], "-foreground", self.colours["ink"],
                                   "-activebackground", self.colours["pressed"], "-activeforeground", self.colours["ink"])
+        self.layout()
         self.resize_widgets()
         self.icons.restyle(self.icon_px(), self.style.dark)
+        self.root.tk.call("::axis::renew_dots")
         self.text_colours()
+        self.notifications.wrap, self.notifications.pad = self.style.px(WRAP_PX), self.padding() - self.style.px(2)
         self.preview.text_px = self.letters_px()
         self.preview.invalidate()
         self.widget_signs.pop("readout", None)
@@ -118,7 +159,7 @@ class LooksPart:
         """Room in buttons and sliders."""
         tcl, style = self.root.tk, self.style
         touch, pad = self.roominess(), self.padding()
-        sizes = {"Button": (("-pady", pad),), "Checkbutton": (("-pady", pad // 2),), "Radiobutton": (("-pady", pad // 2),),
+        sizes = {"Button": (("-pady", pad),), "Checkbutton": (("-pady", pad * 2 // 3),), "Radiobutton": (("-pady", pad * 2 // 3),),
                  "Scale": (("-width", style.px(15 * touch * touch)), ("-sliderlength", style.px(28 * touch))),
                  "Scrollbar": (("-width", style.px(15 * touch)),)}
 
@@ -128,6 +169,8 @@ class LooksPart:
             for child in tcl.splitlist(tcl.call("winfo", "children", path)):
                 walk(str(child))
         walk(".")
+        tcl.call("grid", "configure", ".pane.top.tabs.fmdi.command", "-ipady", pad)
+        tcl.call("::axis::arrange")
 
     def text_colours(self):
         t = self.widgets.text
@@ -141,14 +184,18 @@ class LooksPart:
 
     # -- what the View menu calls ----------------------------------------------------------
 
-    def set_dark(self, on):
-        self.prefs.putpref("dark_theme", bool(on))
+    def change(self, name, value, kind=bool):
+        """A preference of the look: the window as if it had started so."""
+        self.prefs.putpref(name, kind(value), kind)
+        self.most_scale, self.most_touch = tkstyle.MAX_SCALE, TOUCH
         self.restyle()
+        self.fit_screen()
+
+    def set_dark(self, on):
+        self.change("dark_theme", on)
 
     def set_touch(self, on):
-        self.prefs.putpref("large_touch_targets", bool(on))
-        self.restyle()
+        self.change("large_touch_targets", on)
 
     def set_scale(self, scale):
-        self.prefs.putpref("interface_scale", float(scale), float)
-        self.restyle()
+        self.change("interface_scale", scale, float)

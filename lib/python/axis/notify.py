@@ -14,6 +14,7 @@ class Notifications:
     def __init__(self, root, on_change=lambda error: None, wrap=WRAP_PX):
         self.root, self.on_change, self.wrap = root, on_change, wrap
         self.frame = tk.Frame(root)
+        self.pad = 0             # pixels above and below what closes a message
         self.shown = []          # (kind, widget), oldest first
 
     def add(self, kind, text):
@@ -22,7 +23,7 @@ class Notifications:
         box = tk.Frame(self.frame, background=back, padx=8, pady=6, highlightthickness=1, highlightbackground="#ffffff")
         tk.Label(box, text=sign, background=back, foreground=fore).pack(side="left", anchor="n")
         tk.Label(box, text=text, background=back, foreground=fore, wraplength=self.wrap, justify="left").pack(side="left", padx=6)
-        tk.Button(box, text="✕", background=back, foreground=fore, relief="flat", takefocus=False, padx=2, pady=0,
+        tk.Button(box, text="✕", background=back, foreground=fore, relief="flat", takefocus=False, padx=2 + self.pad, pady=self.pad,
                   command=lambda: self.remove(box)).pack(side="right", anchor="n")
         box.pack(side="bottom", fill="x", pady=2)
         self.shown.append((kind, box))

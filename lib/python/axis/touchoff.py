@@ -5,6 +5,7 @@ import os
 import tempfile
 
 import gcode
+from kerf.language import _
 
 from .settings import MM_PER_INCH
 
@@ -36,8 +37,8 @@ def brackets(text):
     for c in text:
         depth += (c == "[") - (c == "]")
         if depth < 0:
-            return "Unbalanced ["
-    return "Unbalanced [" if depth else None
+            return _("Unbalanced [")
+    return _("Unbalanced [") if depth else None
 
 
 class Checker:
@@ -50,7 +51,7 @@ class Checker:
         """(value, None) or (None, what is wrong)."""
         text = text.strip()
         if not text:
-            return None, "Enter a number"
+            return None, _("Enter a number")
         wrong = brackets(text)
         if wrong:
             return None, wrong

@@ -33,7 +33,7 @@ class UserPart:
         self.user = self.user_names()
         if not os.path.exists(path):
             if given:
-                self.notifications.add("error", f"[DISPLAY]USER_COMMAND_FILE: {path} does not exist")
+                self.notifications.add("error", f"[DISPLAY]USER_COMMAND_FILE: {self.translate('%s does not exist') % path}")
             return
         try:
             with open(path) as f:

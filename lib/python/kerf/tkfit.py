@@ -31,10 +31,9 @@ def place_of(window):
 
 def menu_height(window):
     """Pixels of its menu bar as its letters are now."""
-    menus = [child for child in window.tk.splitlist(window.tk.call("winfo", "children", window))
-             if "#" in str(child).rpartition(".")[2] and str(window.tk.call("winfo", "class", child)) == "Menu"]
-    return max((int(window.tk.call("winfo", "reqheight", menu)) for menu in menus
-                if str(window.tk.call(menu, "cget", "-type")) == "menubar"), default=0)
+    call = window.tk.call
+    menus = [child for child in window.tk.splitlist(call("winfo", "children", window)) if str(call("winfo", "class", child)) == "Menu"]
+    return max((int(call("winfo", "reqheight", menu)) for menu in menus if str(call(menu, "cget", "-type")) == "menubar"), default=0)
 
 
 def room_of(window):
@@ -44,6 +43,16 @@ def room_of(window):
 
 def asked(window):
     return window.winfo_reqwidth(), window.winfo_reqheight()
+
+
+def share_of(window, size=None):
+    """How much of the size that it asks for a window can get, in its worse direction; 1 or more: all."""
+    return min(most / wanted for most, wanted in zip(room_of(window), size or asked(window)))
+
+
+def step_for(share):
+    """The next factor for letters that are too large by that much."""
+    return max(LEAST_STEP, min(MOST_STEP, share))
 
 
 def scale_option(widget, option, factor, get, put):
@@ -66,6 +75,23 @@ def give_way(widget):
             if int(child.winfo_pixels(str(child.cget("height")))) > lines:
                 child.configure(height=int(lines))
         give_way(child)
+
+
+def enlarge(window, wanted):
+    """At least this size, as far as the screen has it, and on the screen."""
+    most, now = room_of(window), (window.winfo_width(), window.winfo_height())
+    size = tuple(min(max(n, w), m) for n, w, m in zip(now, wanted, most))
+    at = place_of(window)
+    place = tuple(max(0, min(p, m - s)) for p, m, s in zip(at, most, size))
+    if (size, place) != (now, at):
+        window.minsize(*(min(least, s) for least, s in zip(window.minsize(), size)))
+        window.geometry("{}x{}+{}+{}".format(*size, *place))
+
+
+def onto_screen(window):
+    """Into the screen, as large as it asks for."""
+    if window.winfo_exists():
+        enlarge(window, asked(window))
 
 
 class Fit:
@@ -95,24 +121,22 @@ class Fit:
 
     def fit(self, window):
         window.update_idletasks()
-        most, wanted = room_of(window), asked(window)
-        share = min(m / w for m, w in zip(most, wanted))
-        if share < 1:
+        wanted = asked(window)
+        if share_of(window) < 1:
             give_way(window)
-            self.enlarge(window, wanted)
+            enlarge(window, wanted)
         for _ in range(STEPS):
             window.update_idletasks()
-            share = min(m / w for m, w in zip(most, asked(window)))
+            share = share_of(window)
             if share >= 1 or not self.shrink(share):
                 break
-        self.enlarge(window, asked(window))
+        enlarge(window, asked(window))
 
     def shrink(self, share):
         """Letters and gaps by about this share; False when they are as small as they may be."""
         style = self.style
-        step = max(LEAST_STEP, min(MOST_STEP, share))
         if style.scale > 1:
-            before, style.scale = style.scale, max(1.0, style.scale * step)
+            before, style.scale = style.scale, max(1.0, style.scale * step_for(share))
             self._lengths(self.root, style.scale / before)
             self._fonts(style.scale / before)
         elif style.touch > 0:
@@ -143,14 +167,3 @@ class Fit:
                 for column in ("#0", *child.cget("columns")):
                     child.column(column, width=round(child.column(column, "width") * factor), minwidth=round(child.column(column, "minwidth") * factor))
             self._lengths(child, factor)
-
-    @staticmethod
-    def enlarge(window, wanted):
-        """At least this size, as far as the screen has it, and on the screen."""
-        most, now = room_of(window), (window.winfo_width(), window.winfo_height())
-        size = tuple(min(max(n, w), m) for n, w, m in zip(now, wanted, most))
-        at = place_of(window)
-        place = tuple(max(0, min(p, m - s)) for p, m, s in zip(at, most, size))
-        if (size, place) != (now, at):
-            window.minsize(*(min(least, s) for least, s in zip(window.minsize(), size)))
-            window.geometry("{}x{}+{}+{}".format(*size, *place))

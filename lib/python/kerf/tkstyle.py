@@ -87,10 +87,10 @@ def screen_scale(root):
     return min(max(by_density, by_height, 1.0), MAX_SCALE)
 
 
-def apply(root, dark=None, fits=True):
-    """Sets fonts, colours and sizes of all widgets of this program; returns the Style. fits: windows get the room they need."""
+def apply(root, dark=None, fits=True, most=MAX_SCALE):
+    """Sets fonts, colours and sizes of all widgets of this program; returns the Style. fits: windows get the room they need. most: scale."""
     dark = wants_dark() if dark is None else dark
-    style = Style(DARK if dark else LIGHT, dark, screen_scale(root), float(fits and wants_touch()))
+    style = Style(DARK if dark else LIGHT, dark, min(screen_scale(root), most), float(fits and wants_touch()))
 
     def restyle():
         letters = style.px(NORMAL_PX if root.winfo_screenheight() >= SMALL_SCREEN else NORMAL_PX - 1)

@@ -1,55 +1,107 @@
 #!/usr/bin/python3
+"""Everything on the screen has room and can be read: themes, sizes, touch, every page, menu and dialog (tests/lib/room.py).
+
+LOOKS: LANGUAGE:SCALE:THEME[:touch] words, the language is that of the process. TONGUE=long: every text 40 % longer. PICTURES=FOLDER: pictures, too.
+"""
+import os
 import sys
 
+import room
+from kerf import language
+
+if os.environ.get("TONGUE") == "long":
+    language.catalogue = room.longer
 import operator_lib as lib
+from axis import dialogs
+from axis.touchoff import Checker
 
-KINDS = ("Label", "Button", "Radiobutton", "Checkbutton", "Entry", "TCombobox", "Scale", "Text", "Listbox")
+TOUCH_PX, TOUCH_SCREEN_PX = 30, 700
+ASK = dialogs.ask
 
 
-def clipped(op):
-    """(path, what) of widgets that have less room than they ask for, or lie outside of what holds them."""
-    tcl, root, found = op.root.tk, op.root, []
+class Looker:
+    def __init__(self, op):
+        self.op, self.app, self.told = op, op.app, set()
 
-    def number(what, path):
-        return int(tcl.call("winfo", what, path))
+    def look(self, name, touch=0):
+        for _ in range(3):
+            self.op.root.update()
+        for line in room.troubles(self.op.root, touch):
+            if line not in self.told:
+                self.told.add(line)
+                print("   ", name, line)
+        if "PICTURES" in os.environ:
+            from PIL import ImageGrab
+            ImageGrab.grab(xdisplay=os.environ["DISPLAY"]).save(f"{os.environ['PICTURES']}/{name}.png")
 
-    def walk(path, box):
-        for child in map(str, tcl.splitlist(tcl.call("winfo", "children", path))):
-            kind = str(tcl.call("winfo", "class", child))
-            if not number("viewable", child) or kind in ("Menu", "Togl") or str(tcl.call("winfo", "toplevel", child)) != ".":
-                continue
-            x, y, w, h = (number(what, child) for what in ("rootx", "rooty", "width", "height"))
-            inner = (max(box[0], x), max(box[1], y), min(box[2], x + w), min(box[3], y + h))
-            if kind in KINDS:
-                if kind not in ("Text", "Listbox", "Scale", "Entry") and number("reqwidth", child) > w + 1:
-                    found.append((child, f"asks for {number('reqwidth', child)} pixels, has {w}"))
-                if x < box[0] - 1 or y < box[1] - 1 or x + w > box[2] + 1 or (y + h > box[3] + 1 and kind not in ("Text",)):
-                    found.append((child, f"is cut off: {(x, y, x + w, y + h)} in {box}"))
-            walk(child, inner)
-    root.update()
-    walk(".", (root.winfo_rootx(), root.winfo_rooty(), root.winfo_rootx() + root.winfo_width(), root.winfo_rooty() + root.winfo_height()))
-    return found
+    def dialog(self, name, show, *path):
+        """Opens a dialog, looks at it and closes it."""
+        def seen():
+            self.look(name)
+            for window in self.op.root.tk.splitlist(self.op.root.tk.call("winfo", "children", ".")):
+                if str(self.op.root.tk.call("winfo", "class", window)) == "Dialog":
+                    modal.answer(None)
+        modal = None
+        wait = dialogs.Modal.wait
+
+        def waited(dialog, focus=None):
+            nonlocal modal
+            modal = dialog
+            self.op.root.after(1, seen)
+            return wait(dialog, focus)
+        dialogs.Modal.wait = waited
+        try:
+            show()
+        finally:
+            dialogs.Modal.wait = wait
+
+
+DIALOGS = {
+    "close": lambda op: op.app.confirm_close(),
+    "touch-off": lambda op: op.root.tk.call("touch_off_system"),
+    "mistyped": lambda op: dialogs.Touchoff(op.root, op.app.translate("Touch Off (system)"), "X", "1 [", "mm", Checker(op.app.settings, "none.var"), "P0", None, op.app.translate).wait(),
+    "grid": lambda op: op.app.custom_grid(),
+    "properties": lambda op: op.root.tk.call("gcode_properties"),
+    "rehome": lambda op: op.root.tk.call("home_all_joints"),
+    "limits": lambda op: dialogs.ask(op.root, op.app.translate("Program exceeds machine limits"), "\n".join(LIMITS), "warning", 1,
+                                     *map(op.app.translate, ("Re-Check", "Run Anyway", "Cancel")), escape=2),
+    "restore": lambda op: dialogs.ask(op.root, op.app.translate("Run from line %d") % 80, op.app.translate("Before the program goes on at line %d, this is done:") % 80, "warning", 2,
+                                      *map(op.app.translate, ("Restore and run", "Run without", "Cancel")), extra="G0 X1\n" * 40, escape=2),
+    "read-only": lambda op: dialogs.ask(op.root, op.app.translate("File not Writable:") + "part.ngc", op.app.translate("The file cannot be changed: open it to read, or save a copy first?"),
+                                        "warning", 0, *map(op.app.translate, ("Edit-readonly", "Save", "Cancel"))),
+}
+LIMITS = [f"Program exceeds machine maximum on axis {c}" for c in "XYZABCUVW"] * 3
 
 
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
-    app = op.app
-    small = op.root.winfo_screenheight() < 700
-    print("screen:", op.root.winfo_screenheight(), "letters:", app.letters_px(), "title of the left tab:", op.root.tk.call(".pane.top.tabs", "itemcget", "manual", "-text"))
+    dialogs.ask = ASK
+    app, looker = op.app, Looker(op)
+    print("screen:", op.root.winfo_screenheight(), "title of the left tab:", op.root.tk.call(".pane.top.tabs", "itemcget", "manual", "-text"))
     op.power_on()
-    for dark, touch, scale in ((False, False, 0.0), (True, False, 1.0), (False, True, 1.0), *(() if small else ((False, False, 1.5), (True, False, 2.0), (False, True, 2.0)))):
-        app.set_dark(dark)
-        app.set_touch(touch)
-        app.set_scale(scale)
-        for tab in ("manual", "mdi"):
+    op.home()
+    for words in os.environ["LOOKS"].split():
+        _, scale, theme, *touch = words.split(":")
+        app.set_dark(theme == "dark")
+        app.set_touch(bool(touch))
+        app.set_scale(float(scale or 0))
+        name = words.replace(":", "-")
+        roomy = touch and op.root.winfo_screenheight() >= TOUCH_SCREEN_PX * app.style.scale
+        for tab in ("mdi", "manual"):
             app.raise_tab(tab)
             op.wait(0.1)
-            for path, what in clipped(op):
-                print("dark" * dark, "touch" * touch, scale, tab, path, what)
-        print("theme", "dark" if dark else "light", "touch" * touch, "scale", scale, "letters", app.letters_px(), "icon", app.icons.get("run").width(),
-              "background", app.widgets.homebutton.cget("background") == app.colours["face"])
-    app.TclCommands.gcode_properties()
-    print("properties translated:", app.translate("Run time") != "Run time")
+            looker.look(f"{name}-{tab}", TOUCH_PX if roomy else 0)
+        for dialog, show in DIALOGS.items():
+            looker.dialog(f"{name}-{dialog}", lambda: show(op))
+        for window in (".about", ".keys"):
+            op.root.tk.call("::axis::show_window", window)
+            looker.look(name + window.replace(".", "-"))
+            op.root.tk.call("wm", "withdraw", window)
+        for kind in ("error", "info"):
+            app.notifications.add(kind, app.translate("Before the program goes on at line %d, this is done:") % 17 + " /home/somebody/linuxcnc/nc_files/a-part-with-a-long-name.ngc")
+        looker.look(name + "-messages")
+        app.notifications.clear()
+        print(words, "letters", app.letters_px(), "icon", app.icons.get("run").width(), "background", app.widgets.homebutton.cget("background") == app.colours["face"])
 
 
 lib.run(script)
