@@ -88,8 +88,11 @@ class Errors:
         """Everything that helps to find the reason, in one file."""
         subprocess.run(["linuxcnc_info", "-s"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False)
         parts = [f"===== {name}\n{text}" for name, text in self.texts.items()]
-        REPORT.write_text("\n".join(parts) + "\n===== System\n" + read("/tmp/linuxcnc_info.txt"))
-        self.state.configure(text=_("Written: %s") % REPORT)
+        try:
+            REPORT.write_text("\n".join(parts) + "\n===== System\n" + read("/tmp/linuxcnc_info.txt"))
+            self.state.configure(text=_("Written: %s") % REPORT)
+        except OSError as e:
+            self.state.configure(text=f"{REPORT}: {e.strerror}", style="Bad.TLabel")
 
 
 def main(argv):

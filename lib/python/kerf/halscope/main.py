@@ -4,6 +4,8 @@
 import getopt
 import sys
 
+from ..language import _
+
 AUTOSAVE = "autosave.halscope"
 USAGE = """Usage: halscope [-h] [-i infile] [-o outfile] [num_samples]
   -h             this text
@@ -35,6 +37,7 @@ def main(words):
         return 1
     infile, outfile, samples = chosen
     import hal
+    from tkinter import messagebox
     from .. import tkstyle
     from . import acquire, configfile, settings as st
     from .screen import Screen, report
@@ -44,6 +47,8 @@ def main(words):
         component = hal.component("halscope")
     except hal.error as e:
         print(f"halscope: {e}: is another halscope running?", file=sys.stderr)
+        tkstyle.apply(root)
+        messagebox.showerror("halscope", _("Another halscope is running already."))
         return 1
     component.ready()
     settings = st.Settings()

@@ -31,7 +31,8 @@ class WatchView(ttk.Frame):
         self.widest = 0             # pixels of the widest value of this list so far
         self.canvas = tk.Canvas(self, highlightthickness=0, background=style.colours["field"])
         bar = ttk.Scrollbar(self, command=self.canvas.yview)
-        self.canvas.configure(yscrollcommand=bar.set)
+        self.across = ttk.Scrollbar(self, orient="horizontal", command=self.canvas.xview)
+        self.canvas.configure(yscrollcommand=bar.set, xscrollcommand=self._xset)
         bar.pack(side="right", fill="y")
         self.canvas.pack(fill="both", expand=True)
         self.font = tkinter.font.nametofont("TkDefaultFont", self)
@@ -39,6 +40,14 @@ class WatchView(ttk.Frame):
         self.canvas.bind("<Button-3>", self.popup)
         self._wheel(self.canvas)
         self.canvas.bind("<Configure>", lambda event: self.lines())
+
+    def _xset(self, first, last):
+        """A bar below only where names are too long for the window."""
+        self.across.set(first, last)
+        if float(first) <= 0 and float(last) >= 1:
+            self.across.pack_forget()
+        elif not self.across.winfo_manager():
+            self.across.pack(side="bottom", fill="x", before=self.canvas)
 
     def _wheel(self, widget):
         for button, step in (("<Button-4>", -1), ("<Button-5>", 1)):
