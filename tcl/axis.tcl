@@ -10,6 +10,7 @@ package require BWidget
 namespace eval ::axis {
     variable accel_pattern {_(.)}
     variable homed_extra {}
+    variable jog_held 0
 }
 
 # -- labels with accelerators --------------------------------------------------------------
@@ -308,9 +309,9 @@ proc ::axis::build_manual {f} {
     # continuous while the button is held, an increment for a whole click
     foreach {w command} {jogminus jog_minus jogplus jog_plus} {
         set b $f.jogf.jog.$w
-        $b configure -command "if {!\[is_continuous\]} { $command 1 }"
-        bind $b <Button-1> "if {\[is_continuous\] && \[::axis::enabled $b\]} { $command 1 }"
-        bind $b <ButtonRelease-1> {jog_stop}
+        $b configure -command "if {!\[is_continuous\] && !\$::axis::jog_held} { $command 1 }"
+        bind $b <Button-1> "if {\[is_continuous\] && \[::axis::enabled $b\]} { set ::axis::jog_held 1; $command 1 }"
+        bind $b <ButtonRelease-1> {jog_stop; after idle {set ::axis::jog_held 0}}
         bind $b <Leave> {jog_stop}
     }
     pack $f.jogf.jog.jogminus $f.jogf.jog.jogplus -side left -padx 2

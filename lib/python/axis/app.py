@@ -137,6 +137,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
 
     def callback_failed(self, kind, error, trace):
         """What Tk calls for exceptions of bindings and timers."""
+        if issubclass(kind, KeyboardInterrupt):      # the launcher ends the session
+            self.root.destroy()
+            return
         text = "".join(traceback.format_exception(kind, error, trace))
         print(text, file=sys.stderr)
         if not isinstance(error, tk.TclError) or self.root.children:
@@ -411,9 +414,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         before, number = self.stat.task_mode, self.stat.tool_in_spindle
         metric = bool(self.vars.metric.get())
         actual = s.find(f"AXIS_{letter}", "TOUCHOFF_ACTUAL")
-        if self.stat.interp_state == linuxcnc.INTERP_IDLE:
-            self.command.task_plan_synch()           # writes the parameter file
-            self.command.wait_complete()
+        self.write_parameters()
         check = Checker(s, self.loader.own_parameters("touchoff.var"))
         if value is None:
             title = _("Tool %d TouchOff") % number if tool else _("Touch Off (system)") if actual is None \
@@ -433,7 +434,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         at = LETTERS.index(letter)
         if tool:
             form = 11 if self.vars.tto_g11.get() else 10
-            place, old = _("Tool %d") % number, self.stat.tool_table[0][1 + at]
+            place, find = _("Tool %d") % number, lambda: self.stat.tool_table[0][1 + at]
+            old = find()
             undo = [f"G10 L1 P{number} {letter}{self.in_program_units(letter, old)}", "G43"]
             done = self.mdi_lines(f"G10 L{form} P{number} {letter.lower()}[[{value}]*{scale}]", "G43")
         else:
@@ -442,15 +444,15 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
                 number = check(value)[0]
                 value = str(number - here if actual.upper() == "MINUS" else number + here)
             system = int(self.vars.touch_off_system.get().split()[0][1:]) or self.active_system()
-            place, old = SYSTEMS[system], None
-            if system == self.active_system():
-                old = self.stat.g5x_offset[at]
-                undo = [f"G10 L2 P{system} {letter}{self.in_program_units(letter, old)}"]
+            place, find = SYSTEMS[system], lambda: self.system_offset(system, at)
+            old = find()
+            undo = [f"G10 L2 P{system} {letter}{self.in_program_units(letter, old)}"]
             done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get().split()[0]} {letter.lower()}[[{value}]*{scale}]")
         self.after_mdi(before)
         if done:
             self.reload_file(False)
-            self.tell_touch_off(letter, place, old, at, tool, undo if old is not None else None)
+            self.stat.poll()
+            self.tell_touch_off(letter, place, old, find(), undo)
 
     def touch_off_note(self, letter, tool):
         """What the dialog says below the question: which axis, where it stands, what would change."""
@@ -471,13 +473,22 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         mm = value / self.settings.units_per_mm
         return "%.8f" % (mm if G21_ACTIVE in self.stat.gcodes else mm / MM_PER_INCH)
 
-    def tell_touch_off(self, letter, place, old, at, tool, undo):
+    def write_parameters(self):
+        """Task writes the parameter file, where it can."""
+        if self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.task_mode != linuxcnc.MODE_AUTO:
+            self.command.task_plan_synch()
+            self.command.wait_complete()
+
+    def system_offset(self, system, at):
+        """Offset of a coordinate system (1 to 9), machine units."""
+        if system == self.active_system():
+            return self.stat.g5x_offset[at]
+        self.write_parameters()
+        return program.parameter(self.loader.own_parameters("touchoff.var"), 5201 + 20 * system + at)
+
+    def tell_touch_off(self, letter, place, old, new, undo):
         """Axis, old and new value as a message; the way back is kept."""
-        self.stat.poll()
         self.undo_lines = undo
-        if undo is None:
-            return
-        new = self.stat.tool_table[0][1 + at] if tool else self.stat.g5x_offset[at]
         angular = self.settings.axis_type(letter) == "ANGULAR"
         text = ["%.4f" % (v if angular else self.to_display(v)) for v in (old, new)]
         self.notifications.add("info", self.translate("Touch off: %s, %s offset: before %s, now %s. Machine > Undo touch off takes it back.") % (place, letter, *text))

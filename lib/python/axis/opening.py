@@ -98,8 +98,7 @@ class OpeningPart:
         if not self.loaded_file or self.loading or self.state_on_disk() != self.disk_state:
             return
         centre, size = list(self.preview.camera.centre), self.preview.camera.size
-        self.command.task_plan_synch()           # writes the parameter file
-        self.command.wait_complete()
+        self.write_parameters()
         self.begin_progress()
         try:
             self.read_preview(quiet=True)

@@ -147,6 +147,13 @@ class Loader:
         return most > 0 and os.path.getsize(path) > most * 1e6
 
 
+def parameter(path, number):
+    """Value of a parameter in a parameter file; 0 where it is not there."""
+    with open(path) as f:
+        rows = [line.split() for line in f]
+    return next((float(row[1]) for row in rows if len(row) == 2 and row[0] == str(number)), 0.0)
+
+
 def limit_warnings(program, settings, stat, translate=str):
     """Warnings where the program leaves the soft limits of X, Y or Z."""
     if program is None or program.n_moves == 0:

@@ -3,6 +3,7 @@ import os
 import sys
 import threading
 
+import hal
 import linuxcnc
 import operator_lib as lib
 from axis import dialogs
@@ -44,6 +45,20 @@ def jogging(op):
     op.let_go("Left")
     print("increment chosen meanwhile, let go: rests", at_rest(op))
     app.continuous()
+    plus = ".pane.top.tabs.fmanual.jogf.jog.jogplus"
+    app.activate_ja_widget("x")
+    for event in ("<Enter>", "<Button-1>"):
+        root.tk.call("event", "generate", plus, event, "-x", 3, "-y", 3)
+    op.wait(0.2)
+    print("FP-060: a button: moves", abs(op.stat.joint[0]["velocity"]) > 0, end=" ")
+    app.vars.jogincrement.set("1mm")
+    root.tk.call("event", "generate", plus, "<ButtonRelease-1>", "-x", 3, "-y", 3)
+    root.tk.call("event", "generate", plus, "<Leave>")
+    print("increment chosen meanwhile, let go: rests", at_rest(op), end=" ")
+    at = op.position(0)
+    op.wait(0.5)
+    print("no step more:", op.position(0) == at)
+    app.continuous()
     print("FP-061: moves", jog(state=1), end=" ")
     root.event_generate("<KeyRelease-Shift_L>", state=1)
     print("modifier let go first: rests", at_rest(op), end=" ")
@@ -54,6 +69,11 @@ def jogging(op):
     print("FP-061: moves", jog(), end=" ")
     op.key("F5")
     print("other tab: rests", at_rest(op), end=" ")
+    op.let_go("Left")
+    op.key("F3")
+    print("moves", jog(), end=" ")
+    root.event_generate("<FocusOut>")
+    print("focus lost: rests", at_rest(op), end=" ")
     op.let_go("Left")
     op.key("F3")
     print("moves", jog(), end=" ")
@@ -97,7 +117,7 @@ def programs(op, here):
     print("FP-130:", [m.split(" ")[1:5] for m in op.messages() if "on disk" in m], end=" ")
     op.key("r")
     op.wait(0.3)
-    print("not run:", op.stat.interp_state == linuxcnc.INTERP_IDLE, "told:", any("open it again" in m for m in op.messages()), "text shown:", app.line_text(5))
+    print("FP-186: not run:", op.stat.interp_state == linuxcnc.INTERP_IDLE, "told:", any("open it again" in m for m in op.messages()), "text shown:", app.line_text(5))
     op.key("r", state=4)         # Control-R: reload, a copy that later edits do not touch
     op.wait(0.3)
     with open(path, "w") as f:
@@ -189,12 +209,65 @@ def loading(op, here):
     op.power_on()
     print("usable after it:", app.vars.task_state_string.get(), "loading over:", not app.loading)
     beside(op, here)
+    remote_estop(op, here)
     op.answer(0)
     app.open_file_guts(os.path.join(here, "broken.ngc"))
     op.wait(0.2)
     app.open_file_guts(os.path.join(here, "part.ngc"))
     app.open_file_guts(os.path.join(here, "part.ngc"))
     print("FP-139: opened twice:", op.messages()[-1:] if any("open" in m for m in op.messages()[-1:]) else "no complaint")
+
+
+def remote_estop(op, here):
+    """FP-187: halui's emergency stop in each part of the loading: the filter, task, reading, the drawing."""
+    app, at, go = op.app, [], os.environ["GO"]
+    begun, done = threading.Event(), threading.Event()
+    real = {"filter": app.loader.filtered, "copy": app.loader.kept_text, "reading": app.loader.preview, "drawing": app.preview.drawing}
+
+    def stopped_at(name, function):
+        def call(*args, **more):
+            if at == [name]:
+                begun.set()
+                done.wait(20)
+            return function(*args, **more)
+        return call
+
+    def stop():
+        """On the screen's own thread, as an update would find it."""
+        if not begun.is_set():
+            op.root.after(20, stop)
+            return
+        at.append(linuxcnc_stat().task_state == linuxcnc.STATE_ON)
+        hal.set_p("halui.estop.activate", "1")
+        at.append(clock.wait_until(lambda: linuxcnc_stat().task_state == linuxcnc.STATE_ESTOP, 1.0, 0.02))
+        done.set()
+    app.loader.filtered, app.loader.kept_text, app.preview.drawing = (stopped_at(n, real[n]) for n in ("filter", "copy", "drawing"))
+    app.loader.preview = lambda *args, **more: stopped_at("reading", real["reading"](*args, **more))
+    open(go, "w").close()
+    for name in ("filter", "copy", "reading", "drawing"):
+        at[:] = [name]
+        begun.clear()
+        done.clear()
+        op.root.after(20, stop)
+        app.open_file_guts(os.path.join(here, "part.wait"))
+        op.wait(0.3)
+        estop, hand = app.vars.task_state_string.get(), app.loading
+        hal.set_p("halui.estop.activate", "0")
+        op.power_on()
+        op.hold("Left")
+        op.wait(0.2)
+        moves = abs(op.stat.joint[0]["velocity"]) > 0
+        op.let_go("Left")
+        op.wait(0.5)
+        print("FP-187: loading,", at[0], "on", at[1], "stopped meanwhile", at[2], "| after it: screen", estop, "loading", hand, "then", app.vars.task_state_string.get(), "jogs", moves)
+    os.remove(go)
+    app.loader.filtered, app.loader.kept_text, app.loader.preview, app.preview.drawing = (real[n] for n in ("filter", "copy", "reading", "drawing"))
+
+
+def linuxcnc_stat():
+    s = linuxcnc.stat()
+    s.poll()
+    return s
 
 
 def beside(op, here):
@@ -243,11 +316,11 @@ def touching_off(op):
     app.vars.touch_off_system.set("P0")
     app.notifications.clear()
     app.activate_ja_widget("x")
-    op.hold("Up")
-    op.wait(0.3)
-    op.let_go("Up")
-    op.wait(0.5)
-    print("FP-183: the axis that moved is chosen:", app.vars.ja_rbutton.get())
+    for pin, value in (("jog-scale", "0.5"), ("jog-enable", "1"), ("jog-counts", "1")):          # its own wheel
+        hal.set_p(f"axis.y.{pin}", value)
+    op.wait(1.0)
+    hal.set_p("axis.y.jog-enable", "0")
+    print("FP-183: the axis that its wheel moved is chosen:", app.vars.ja_rbutton.get(), "moved:", op.position(1))
     before = app.stat.g5x_offset
     op.key("End")
     op.wait(0.3)
@@ -257,6 +330,22 @@ def touching_off(op):
     op.root.tk.call("undo_touch_off")
     op.wait(0.3)
     print("FP-183: taken back:", all(abs(a - b) < 1e-6 for a, b in zip(before, op.stat.g5x_offset)), "only once:", app.undo_lines)
+    app.notifications.clear()
+    op.root.tk.call("set_axis_offset")                                                  # Shift-Home
+    app.vars.touch_off_system.set("P3")
+    dialogs.Touchoff.wait = wait
+    op.key("End")
+    op.wait(0.3)
+    print("FP-183: another system:", op.messages()[-1:], end=" ")
+    op.root.tk.call("undo_touch_off")
+    op.wait(0.3)
+    op.key("F5")
+    app.notifications.clear()
+    op.type("(debug,P3 is #5262)")
+    op.until(lambda: any("P3 is" in m for m in op.messages()), "parameter of the other system")
+    print("taken back:", op.messages()[-1:])
+    op.key("F3")
+    app.vars.touch_off_system.set("P0")
     shown = {w.split(":")[0].strip(): float(w.split(":")[1].split()[0]) for w in app.preview.readout_lines if w.count(":") and w.strip()[:2] in ("X:", "Y:", "Z:")}
     s = op.stat
     agrees = all(abs(shown[c] - (s.actual_position[i] - s.tool_offset[i] - s.g5x_offset[i] - s.g92_offset[i])) < 2e-3 for i, c in enumerate("XYZ"))

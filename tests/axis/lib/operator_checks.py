@@ -21,6 +21,14 @@ def still_jogging(op):
     return None
 
 
+def outside_limits(op):
+    """Homed joints beyond their soft limits."""
+    s = op.stat
+    for n, joint in enumerate(s.joint[:3]):
+        if joint["homed"] and not joint["min_position_limit"] - 1e-3 <= s.joint_actual_position[n] <= joint["max_position_limit"] + 1e-3:
+            yield f"joint {n} at {s.joint_actual_position[n]}"
+
+
 def disagreement(op):
     app, s, v = op.app, op.stat, op.app.vars
     pairs = {"task_state": s.task_state, "task_mode": s.task_mode, "interp_state": s.interp_state, "spindledir": s.spindle[0]["direction"],

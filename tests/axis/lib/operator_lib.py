@@ -25,7 +25,13 @@ class Operator:
     def __init__(self, app):
         self.app, self.root = app, app.root
         self.trouble = []
-        self.root.report_callback_exception = lambda *what: self.trouble.append("".join(traceback.format_exception(*what)))
+        self.root.report_callback_exception = self.failed
+
+    def failed(self, kind, error, trace):
+        if issubclass(kind, KeyboardInterrupt):
+            self.app.callback_failed(kind, error, trace)
+        else:
+            self.trouble.append("".join(traceback.format_exception(kind, error, trace)))
 
     def wait(self, seconds):
         """The machine's time passes, the screen follows."""
