@@ -34,7 +34,8 @@ Usage:
   linuxcnc -l | -h
 
 Options:
-  -d           debug messages          -v           verbose messages
+  -d           show every command that is run
+  -v           accepted for old scripts: everything is printed where it can be read
   -r           no redirection of output when standard input is not a terminal
   -l           use the last configuration again
   -k           go on after errors in HAL files
@@ -96,6 +97,8 @@ class Options:
                 setattr(self, name, value or True)
         self.ini = rest[0] if rest else None
         self.extra = rest[1:]
+        if os.isatty(0):
+            print("Debug mode on\n" * bool(self.debug) + "Verbose mode on\n" * bool(self.verbose), end="", flush=True)
         if self.ini == "-":
             self.last, self.ini = True, None
 
@@ -246,8 +249,14 @@ class Session:
 
     # -- helpers ---------------------------------------------------------------------------
 
+    def trace(self, command):
+        """With -d: what is run, as a shell's -x."""
+        if self.options.debug:
+            print("+ " + shlex.join(command), file=sys.stderr, flush=True)
+
     def run(self, *command, quiet=False):
         """Runs a program of ours to its end; returns its exit status."""
+        self.trace(command)
         options = dict(env=self.env, stdin=subprocess.DEVNULL)
         if quiet:
             options.update(stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -355,7 +364,7 @@ class Session:
             self.clean_other(int(owner) if owner.isdigit() else 0, old_id)
 
     def wants_restart(self):
-        if sys.stdin.isatty():
+        if os.isatty(0):
             try:
                 answer = input("LinuxCNC is still running.  Restart it? [Y/n] ")
             except EOFError:        # Ctrl-D
@@ -523,6 +532,7 @@ class Session:
                 print(f"APP: File not executable: <{path}>")
                 continue
             print(f"APP: {name} found: <{path}>", flush=True)
+            self.trace([path] + words[1:])
             line = f"exec {shlex.join([path] + words[1:])}"
             subprocess.Popen(["sh", "-c", f"sleep {delay}; {line}" if delay else line], env=self.env,
                              stdin=subprocess.DEVNULL)
@@ -570,6 +580,7 @@ class Session:
 
     def run_display(self):
         command = self.display_command()
+        self.trace(command)
         try:
             self.display = clock.spawn(command, "display", env=self.env | {SESSION + DISPLAY_PART: self.id})
         except OSError as e:
@@ -662,6 +673,7 @@ class Session:
     def try_run(self, *command, seconds=5.0, quiet=True):
         """Runs a clean-up step; one that hangs is ended."""
         output = subprocess.DEVNULL if quiet else None
+        self.trace(command)
         try:
             subprocess.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=output, stderr=output, timeout=seconds)
         except (subprocess.TimeoutExpired, OSError):
@@ -687,9 +699,11 @@ class Session:
 class Logs:
     """Temporary logs when standard input is no terminal; kept in HOME after an error."""
 
+    SENT = {"print": "(print information was sent to stdout)", "debug": "(debug information was sent to stderr)"}
+
     def __init__(self, options):
         self.quiet = options.test_mode
-        self.active = not sys.stdin.isatty() and not self.quiet
+        self.active = not os.isatty(0) and not self.quiet
         self.files = {}
         if not self.active:
             return
@@ -704,6 +718,18 @@ class Logs:
         os.dup2(fd, stream)
         os.close(fd)
 
+    def keep(self, kind):
+        """The name of the log that is kept."""
+        try:
+            target = instance.suffixed(str(Path.home() / f"linuxcnc_{kind}.txt"))
+            if self.active:
+                shutil.copyfile(self.files[kind], target)
+            else:
+                Path(target).write_text(self.SENT[kind] + "\n")
+            return target
+        except (OSError, RuntimeError):     # there is no home, or nothing can be written in it
+            return self.files.get(kind, self.SENT[kind])
+
     def show(self, died, *texts):
         """A window of its own process: the screen is gone."""
         if os.environ.get("DISPLAY") and not self.quiet:
@@ -713,24 +739,19 @@ class Logs:
 
     def finish(self, status, terminal, died):
         """died: the part of the machine that ended and must not; the operator is told also without logs."""
-        if not self.active:
-            if died:
-                self.show(died)
+        if not self.active and died:
+            self.show(died)
+        if self.quiet:
             return
         sys.stdout.flush()
         sys.stderr.flush()
         texts = []
         if status:
-            for kind, path in self.files.items():
-                try:
-                    target = instance.suffixed(str(Path.home() / f"linuxcnc_{kind}.txt"))
-                    shutil.copyfile(path, target)
-                except (OSError, RuntimeError):     # there is no home, or nothing can be written in it
-                    target = path
-                texts.append(target)
-            with open(self.files["debug"], "rb") as f:
-                os.write(terminal, f.read()[-4000:])
-            self.show(died, *texts)
+            texts = [self.keep(kind) for kind in self.SENT]
+            if self.active:
+                with open(self.files["debug"], "rb") as f:
+                    os.write(terminal, f.read()[-4000:])
+                self.show(died, *texts)
             os.write(terminal, (
                 "LinuxCNC terminated with an error.  You can find more information in the log:\n"
                 f"    {texts[1]}\nand\n    {texts[0]}\n"
@@ -884,7 +905,16 @@ def guarded(options, ini_path, tree):
     return 1, ""
 
 
+def open_streams():
+    """A desktop may start us without standard streams."""
+    while (unused := os.open(os.devnull, os.O_RDWR)) <= 2:
+        pass
+    os.close(unused)
+    sys.stdout, sys.stderr = sys.stdout or os.fdopen(1, "w"), sys.stderr or os.fdopen(2, "w")
+
+
 def main(argv):
+    open_streams()
     options = Options(argv)
     tree = Tree.find()
     for name, value in tree.environment().items():

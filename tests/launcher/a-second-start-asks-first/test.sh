@@ -13,22 +13,9 @@ if [ "$(id -u)" = 0 ] && setpriv --reuid=nobody --regid=nogroup --clear-groups t
 else
     printf 'No display, no tty, trying to clean up other instance automatically\nCleaning up old LinuxCNC...\nLinuxCNC was started by root: end its process N as that user or as root\nstatus 1\n'
 fi | sed 's/process [0-9]*/process N/; /warning:/d'
-python3 - "$out/machine/mill.ini" <<'END'
-import os, pty, sys
-for answer in (b"n\n", b"\4", b"y\n"):
-    pid, terminal = pty.fork()
-    if pid == 0:
-        os.execvp("linuxcnc", ["linuxcnc", "-r", "-D", "true", sys.argv[1]])
-    text = b""
-    try:
-        while data := os.read(terminal, 4096):
-            if b"[Y/n]" in data:
-                os.write(terminal, answer)
-            text += data
-    except OSError:
-        pass
-    status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
-    print(answer, "status", status, *(t for t in ("Not starting new", "Cleaning up old", "Traceback") if t in text.decode()), flush=True)
-END
+for answer in n $'\4' y; do
+    printf 'answer %q: ' "$answer"
+    python3 ../lib/terminal.py "$answer"$'\n' linuxcnc -r -D true "$out/machine/mill.ini" | grep -o 'Not starting new\|Cleaning up old\|Traceback\|^status.*' | paste -sd ' '
+done
 wait $first; echo "first: status $?"
 realtime status || true
