@@ -24,7 +24,6 @@
 #define CELL_MOVES 64      /* moves that one cell may span; less than TRAJ_HISTORY */
 #define ARC_CAP 0.97       /* share of acceleration that a curve at constant speed may use on arcs, */
 #define ROUND_CAP 0.995    /* and in roundings: the rest leaves authority to brake */
-#define JERK_CYCLES 5      /* a step of acceleration acts in jerk while its place is within window + so many cycles */
 #define ARC_STEP 0.1745    /* rad: longest cell on an arc of up to one turn */
 
 /* ---- cells ------------------------------------------------------------------- */
@@ -315,7 +314,8 @@ double traj_jerk(const struct traj *tj, const struct traj_seg *g)
 }
 
 /* The first cell after a rest: the window for all cells up to the next one. Moves known by now decide; where the next
- * rest is known too, motion is no faster than jerk lets it get over that length. */
+ * rest is known too, motion is no faster than jerk lets it get over that length. That is the most; dense corners are
+ * passed faster with less (pace.c). */
 static int choose_window(const struct traj *tj, uint32_t index)
 {
     double start = traj_cseg(tj, index)->s0, len = 1e99;
@@ -335,7 +335,7 @@ static int choose_window(const struct traj *tj, uint32_t index)
         int n = traj_window(tj, fmin(planned_speed(tj, g), peak), g->acc, j, tj->cut_turns ? 2 : 1);
         if (n > most) most = n;
     }
-    return most;
+    return tj->cut_turns || most <= 2 ? most : pace_window(tj, index, end, most);
 }
 
 /* Makes the next piece of the final path. 0: nothing to do. */

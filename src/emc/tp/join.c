@@ -237,6 +237,27 @@ static double width_needed(const struct traj *tj, const struct traj_seg *prev, c
     return w;
 }
 
+double junction_acc(const struct traj *tj, uint32_t c)
+{
+    const struct traj_seg *g = traj_cseg(tj, c);
+    return fmax(acc_ratio(tj, g, g->du), acc_ratio(tj, traj_cseg(tj, c - 1), g->du));
+}
+
+void junction_jerk(const struct traj *tj, uint32_t c, double *jerk, double *bend)
+{
+    const struct traj_seg *g = traj_cseg(tj, c);
+    *jerk = jerk_ratio(tj, g->du);
+    *bend = g->curl > 0 ? jerk_ratio(tj, g->dk) : 0;
+}
+
+double join_guess(const struct traj *tj, uint32_t c)
+{
+    const struct traj_seg *prev = traj_cseg(tj, c - 1), *g = traj_cseg(tj, c);
+    double v = fmax(planned_speed(tj, prev), planned_speed(tj, g));
+    double w = fmin(fmin(prev->prim.len, g->prim.len) / 2, width_of(g, g->tol_join));
+    return fmin(w, width_needed(tj, prev, g, v));
+}
+
 /* If all junctions around c were rounded over +-w: curvature at c, sum of deviations there, sum of
  * bends. 1: the curvature leaves half of each axis's acceleration and jerk at the speed v. */
 static int try_width(const struct traj *tj, uint32_t c, double w, double v, double *off, double *turn)
@@ -359,6 +380,11 @@ static int finish_join(struct traj *tj, uint32_t c)
     if (w < 1e-7 || w < 2 * kink * tj->dt) {
         join_kink(tj, prev, g, g->s0 - tj->cut_s);
         if (g->join == JOIN_KINK) spread_rounding(tj, c);
+        return 1;
+    }
+    if (tj->lim.jerk_on && g->follow == TRAJ_FEED && traj_cseg(tj, c - 1)->w <= prev->prim.len &&
+        pace_rests(tj, c, w)) {
+        join_rest(tj, g);
         return 1;
     }
     g->w = w;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-TP_SOURCES := $(addprefix src/emc/tp/,path.c limits.c join.c cell.c traj.c follow.c tp.c tp_cycle.c tp_sync.c tp_tap.c)
+TP_SOURCES := $(addprefix src/emc/tp/,path.c limits.c join.c cell.c pace.c traj.c follow.c tp.c tp_cycle.c tp_sync.c tp_tap.c)
 $(eval $(call rtmodule,tpmod,src/emc/tp/module.c $(TP_SOURCES)))
 
 # Test programs of tests/tp: objects/test/tp-NAME.

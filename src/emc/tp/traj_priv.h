@@ -46,7 +46,23 @@ uint32_t seg_of(const struct traj *tj, uint32_t from, double s);
 /* Position and derivatives of the rounded path at s in move `index`. */
 void rounded_jet(const struct traj *tj, uint32_t index, double s, struct path_jet *jet);
 
+/* What a junction's jumps are of the limits of acceleration, and of jerk; bend: those of curvature. */
+double junction_acc(const struct traj *tj, uint32_t c);
+void junction_jerk(const struct traj *tj, uint32_t c, double *jerk, double *bend);
+/* Half width that the rounding of a junction which is not final will have, about. */
+double join_guess(const struct traj *tj, uint32_t c);
+
+/* ---- pace.c ---- */
+
+/* 1: motion gets on faster with a rest at junction c than with a rounding over +-w. */
+int pace_rests(const struct traj *tj, uint32_t c, double w);
+/* Window, up to `most` cycles, that moves index .. end - 1 of a run are fastest with. */
+int pace_window(const struct traj *tj, uint32_t index, uint32_t end, int most);
+
 /* ---- cell.c ---- */
+
+/* A step of acceleration acts in jerk while its place is within the window and so many cycles. */
+#define JERK_CYCLES 5
 
 /* Cap of b by the feeds of a cell's moves. */
 double feed_b(const struct traj *tj, const struct traj_cell *c, double scale, double vlimit);

@@ -339,6 +339,26 @@ static void moves_that_end_at_rest_take_as_long_together_as_alone(void)
     }
 }
 
+/* Corners too sharp for the tolerance and the jerk are passed at rest where that is faster, with the window of a short
+ * move: no slower than moves that each end at rest. */
+static void dense_sharp_corners_with_jerk_limits_are_no_slower_than_rests(void)
+{
+    for (double d = 0.2; d < 10; d *= 3) {
+        uint64_t rests = 0;
+        for (double tol = 0; tol < 0.2; tol = tol > 0 ? 10 * tol : 0.001) {
+            mill_with(100, 1000, 5000);
+            for (int i = 1; i <= 40; i++)
+                go(d * i, i & 1 ? d : 0, 0, 100, tol > 0 ? EMCMOT_TERM_COND_BLEND : EMCMOT_TERM_COND_STOP, tol);
+            uint64_t n = bench_run(&b, 1, 200000);
+            limits_kept();
+            if (rests == 0) rests = n;
+            CHECK(n <= rests * 1.02, "%g mm, P %g: %llu cycles, %llu with rests", d, tol, (unsigned long long)n,
+                  (unsigned long long)rests);
+            bench_free(&b);
+        }
+    }
+}
+
 /* Unreachable beyond x = 50. */
 static int short_arm(const double p[AXES], double *q)
 {
@@ -381,6 +401,7 @@ static const struct test_case cases[] = {
     CASE(fp_046_tolerance_holds_at_every_override),
     CASE(fp_047_a_lone_move_uses_all_of_the_limits),
     CASE(lone_moves_with_jerk_limits_take_little_more_than_the_optimum),
+    CASE(dense_sharp_corners_with_jerk_limits_are_no_slower_than_rests),
     CASE(moves_that_end_at_rest_take_as_long_together_as_alone),
     CASE(a_path_out_of_reach_ends_at_rest_with_a_message),
 };

@@ -19,4 +19,4 @@ for cmd in sys.argv[1:]:
     c.mdi(cmd)
     rv = c.wait_complete(60)
     s.poll()
-    print(cmd, "->", rv, [round(p, 3) for p in s.actual_position[:3]])
+    print(cmd, "->", rv, [round(p, 3) + 0.0 for p in s.actual_position[:3]])
