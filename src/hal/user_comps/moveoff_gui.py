@@ -15,6 +15,7 @@ import hal
 from hal import query
 from kerf import tkstyle
 from kerf.language import _, N_
+from kerf.numbertext import with_point
 
 POLL_MS = 1000
 PULSE_MS = 100              # of halui.program.resume
@@ -238,15 +239,18 @@ class Window:
 
     def __init__(self, root, offsets, options):
         import tkinter as tk
+        from tkinter import ttk
         self.tk, self.root, self.offsets, self.options = tk, root, offsets, options
+        self.style = tkstyle.apply(root)
         self.increment = tk.DoubleVar(root, value=options.inc[0])
         self.enable = tk.BooleanVar(root, value=offsets.enabled())
         self.backtrack = tk.BooleanVar(root, value=bool(hal.get_p("mv.backtrack-enable")))
-        self.font = ("TkDefaultFont", options.size)
+        self.font = ("DejaVu Sans", options.size)
         self.values, self.entries, self.controls, self.countdown = {}, {}, [], None
         root.title("moveoff_gui")
-        root.option_add("*Font", f"TkDefaultFont {options.size}")
-        self.status = tk.Label(root, width=len(f"{_(LIMIT)} --- {_(MOTION_OFF)}"), relief="ridge", font=self.font)
+        for kind in ("TCheckbutton", "TRadiobutton"):
+            ttk.Style(root).configure(f"Offsets.{kind}", font=self.font)
+        self.status = tk.Label(root, foreground="black", width=len(f"{_(LIMIT)} --- {_(MOTION_OFF)}"), relief="ridge", font=self.font)
         self.status.pack(fill="x", padx=6, pady=6)
         if not offsets.display_only:
             self._switches()
@@ -265,13 +269,14 @@ class Window:
         self.poll()
 
     def _switches(self):
+        from tkinter import ttk
         frame = self.tk.Frame(self.root)
         frame.pack(fill="x", padx=6)
-        self.switch = self.tk.Checkbutton(frame, text=_("Enable Offsets"), variable=self.enable, font=self.font,
-                                          command=self.switched)
+        self.switch = ttk.Checkbutton(frame, text=_("Enable Offsets"), variable=self.enable, style="Offsets.TCheckbutton",
+                                      command=self.switched)
         self.switch.pack(side="left")
-        self.backtracking = self.tk.Checkbutton(
-            frame, text=_("Backtrack On"), variable=self.backtrack, font=self.font,
+        self.backtracking = ttk.Checkbutton(
+            frame, text=_("Backtrack On"), variable=self.backtrack, style="Offsets.TCheckbutton",
             command=lambda: hal.set_p("mv.backtrack-enable", self.backtrack.get()))
         self.backtracking.pack(side="right")
 
@@ -296,13 +301,14 @@ class Window:
             self.controls.append(entry)
 
     def _increments(self):
+        from tkinter import ttk
         frame = self.tk.Frame(self.root)
         frame.pack(fill="x", padx=6)
         self.tk.Label(frame, text=_("Increment"), font=self.font).pack(side="left")
-        self.radios = [self.tk.Radiobutton(frame, text=f"{size:g}", value=size, variable=self.increment, font=self.font)
+        self.radios = [ttk.Radiobutton(frame, text=f"{size:g}", value=size, variable=self.increment, style="Offsets.TRadiobutton")
                        for size in self.options.inc]
         for radio in self.radios:
-            radio.pack(side="left")
+            radio.pack(side="left", padx=self.style.px(6))
 
     def switched(self):
         on = self.enable.get() and self.offsets.may_enable()
@@ -316,11 +322,11 @@ class Window:
         """The number of an entry; what is no number stays in it, red."""
         text = self.entries[axis].get()
         try:
-            value = float(text)
+            value = float(with_point(text))
             good = value == value and abs(value) != float("inf")
         except ValueError:
             good = False
-        self.entries[axis].configure(fg="black" if good else "red")
+        self.entries[axis].configure(fg=self.style.colours["ink" if good else "bad"])
         if good:
             self.set(axis, value)
 
@@ -339,7 +345,7 @@ class Window:
             label.configure(text=f"{offsets.current(axis):.4f}")
         usage = offsets.usage()
         self.note.configure(text=_("Waypoints used: %d%%") % usage if usage >= USAGE_SHOWN else "",
-                            fg="red" if usage > USAGE_HIGH else "black")
+                            fg=self.style.colours["bad" if usage > USAGE_HIGH else "ink"])
         if offsets.display_only:
             return
         self.enable.set(offsets.enabled())

@@ -15,6 +15,7 @@ if (here.parent / "lib/python/kerf").is_dir():
 
 from kerf import tkstyle
 from kerf.language import _, N_
+from kerf.numbertext import with_point
 from kerf.haltools.writable import Button, Item, NotWritable
 
 POLL_MS = 100
@@ -40,7 +41,7 @@ def number(calculator, text, kind):
     if not calculator.getboolean(calculator.eval("interp exists sums")):
         calculator.eval("interp create -safe sums")
     try:
-        result = calculator.call("sums", "eval", ("expr", text))
+        result = calculator.call("sums", "eval", ("expr", with_point(text)))
     except tkinter.TclError as error:
         raise NotWritable(f"{text!r}: {str(error).splitlines()[0]}") from None
     try:

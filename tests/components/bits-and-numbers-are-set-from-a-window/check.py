@@ -119,6 +119,8 @@ def window(folder: str) -> None:
         root.update()
         return window.status["text"]
     check("expression", (enter(real, "3*25.5"), hal.get_p("mux.in0"), real.value["text"]), ("", 76.5, "76.5"))
+    check("decimal comma", (enter(real, "7,5"), hal.get_p("mux.in0")), ("", 7.5))
+    enter(real, "76.5")
     check("signal", (enter(lonely, "-1e3"), hal.get_s("lonely")), ("", -1000.0))
     check("s32", (enter(s32, "-5"), hal.get_p("conv.in")), ("", -5))
     check("u32", (enter(u32, "0xFF+1"), hal.get_p("back.in"), u32.value["text"]), ("", 256, "256 (0x00000100)"))

@@ -125,7 +125,7 @@ def on_pause(halui, motion) -> None:
     check("the other increment", hal.get_p("mv.offset-in-1"), 2.0)
     bench.click(zero[1])
     check("zero", hal.get_p("mv.offset-in-1"), 0.0)
-    for text, value, color in (("1.25", 1.25, "black"), ("1,5", 1.25, "red"), ("nan", 1.25, "red"), ("99", 3.0, "black")):
+    for text, value, color in (("1.25", 1.25, "ink"), ("1,5", 1.5, "ink"), ("1.5.2", 1.5, "bad"), ("nan", 1.5, "bad"), ("99", 3.0, "ink")):
         entry = window.entries["y"]
         entry.delete(0, "end")
         entry.insert(0, text)
@@ -133,7 +133,7 @@ def on_pause(halui, motion) -> None:
         bench.root.update()
         entry.event_generate("<Return>")
         bench.root.update()
-        check(f"entry {text}", (hal.get_p("mv.offset-in-1"), entry["fg"]), (value, color))
+        check(f"entry {text}", (hal.get_p("mv.offset-in-1"), entry["fg"]), (value, window.style.colours[color]))
     bench.pass_time(1)
     check("moved", ([round(hal.get_p(f"mv.pos-plusoffset-{j}"), 6) for j in range(3)], bench.status()[0]),
           ([1.0, 3.0, -0.5], "OFFSETS ACTIVE"))
@@ -199,9 +199,9 @@ def always(halui) -> None:
     for _ in range(2):
         bench.click(bench.buttons("+")[0])
     bench.pass_time(0.03)
-    check("usage shown", (window.note["text"][:15], window.note["fg"]), ("Waypoints used:", "black"))
+    check("usage shown", (window.note["text"][:15], window.note["fg"]), ("Waypoints used:", window.style.colours["ink"]))
     bench.pass_time(0.014)
-    check("usage high", window.note["fg"], "red")
+    check("usage high", window.note["fg"], window.style.colours["bad"])
     bench.pass_time(0.1)
     check("limit", bench.status(), ("Waypoint limit (Disable required)", "orange"))
     bench.end()

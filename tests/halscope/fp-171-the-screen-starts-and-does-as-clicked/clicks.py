@@ -156,7 +156,7 @@ def operate(s):
     s.vertical.offset.invoke()
     s.dialog.offset.set("x")
     s.dialog.accept()
-    s.dialog.offset.set("1.5")
+    s.dialog.offset.set("1,5")
     s.dialog.ac.set(True)
     s.dialog.accept()
     c = settings.channel(1)

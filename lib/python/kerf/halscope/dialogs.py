@@ -5,6 +5,7 @@ import tkinter as tk
 from tkinter import messagebox, ttk
 
 from ..language import _
+from ..numbertext import with_point
 from . import acquire, settings as st
 from .geometry import engineering
 
@@ -128,7 +129,7 @@ class OffsetDialog(tk.Toplevel):
 
     def accept(self):
         try:
-            value = float(self.offset.get())
+            value = float(with_point(self.offset.get()))
             if value != value or value in (float("inf"), float("-inf")):
                 raise ValueError
         except ValueError:
