@@ -11,6 +11,7 @@ KERF_SCALE=1 to 3 (else what AXIS remembers, else from the screen).
 
 import configparser
 import os
+import signal
 import sys
 import tkinter as tk
 import tkinter.font
@@ -190,13 +191,15 @@ def open_display(program, class_name):
         root.bind_all(event, lambda e: recorder.note(e.type.name, e.keysym if e.keysym != "??" else e.num, e.widget), "+")
 
     def trouble(kind, value, place):
-        """An interrupt (halcmd unload, Control-C) ends the program; other errors are told and it goes on."""
+        """An interrupt (halcmd unload, Control-C, a closed terminal) ends the program; other errors are told and it goes on."""
         if kind is KeyboardInterrupt:
             root.at_interrupt()
             return
         text = "".join(traceback.format_exception(kind, value, place))
         print(f"{text}{program}: report: {recorder.write(text)}", file=sys.stderr)
     root.report_callback_exception = trouble
+    if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:       # the terminal is closed; nohup ignores it
+        signal.signal(signal.SIGHUP, signal.default_int_handler)
     root.at_interrupt = root.destroy
     return root
 
