@@ -150,10 +150,10 @@ view.remove(row)
 
 print("== commands")
 hand.click(window.command)
-for line in ("setp and2.0.in0 1", "setp and2.0.in0 1", "newsig fresh float", "setp nothing 1", "show thread"):
+for line in ("setp and2.0.in0 1", "setp and2.0.in0 1", "newsig fresh float", "lock all", "newsig other bit", "unlock all", "help ptype", "setp nothing 1", "show thread"):
     hand.cleared(window.command, line)
     hand.key("Return")
-    print(line, "->", said().split(":", 1)[-1].strip()[:60])
+    print(line, "->", said().split(":", 1)[-1].strip()[:60], *(text().splitlines()[:1] if line.startswith("help") else ()))
 print(window.history.lines, tree.exists("sig+sig+fresh"), hal.get_p("and2.0.in0"))
 hand.key("Up", "Up")
 print("recalled:", window.command.get())

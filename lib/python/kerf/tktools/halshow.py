@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """halshow: what is in HAL, watch lists, commands."""
 
+import contextlib
 import os
 import re
+import subprocess
 import sys
 import tempfile
 import tkinter as tk
@@ -22,6 +24,8 @@ STRIP, WRAP_PX = 26, 380
 DEFAULTS = {"watchInterval": 100, "col1_width": 100, "ffmts": "", "ifmts": "", "alwaysOnTop": 0, "autoSaveWatchlist": 1, "separateParams": 0}
 START_TEXT = _("Commands may be tested here but they will NOT be saved")
 ADDING = {"pin": N_("Add pin"), "sig": N_("Add signal"), "param": N_("Add parameter")}
+# Commands that the HAL library may refuse; they start no programs.
+REFUSABLE = {"addf", "alias", "delf", "delsig", "linkps", "linksp", "net", "newsig", "setp", "sets", "unalias", "unlinkp"}
 MODES = ("showhal", "watchhal", "settings")
 FILE_TYPES = ((_("Watch lists"), "*.halshow"), (_("All files"), "*"))
 USAGE = """Usage: halshow [--help] [--fformat FORMAT] [--iformat FORMAT] [--noprefs] [WATCHFILE]
@@ -99,6 +103,24 @@ class History:
     def move(self, step):
         self.place = min(max(self.place + step, 0), len(self.lines))
         return self.lines[self.place] if self.place < len(self.lines) else ""
+
+
+@contextlib.contextmanager
+def overheard(lines):
+    """What the HAL library writes on standard error goes into the list, too: the reasons of its refusals."""
+    sys.stderr.flush()
+    with tempfile.TemporaryFile() as file:
+        kept = os.dup(2)
+        os.dup2(file.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+            file.seek(0)
+            text = file.read()
+            os.write(2, text)
+            lines += text.decode(errors="replace").splitlines()
 
 
 class Window:
@@ -357,10 +379,12 @@ class Window:
 
     def hal(self, *words):
         """A HAL command; its output, or None when it failed (the status line says why)."""
+        reasons = []
         try:
-            return str(self.root.tk.call("hal", *words))
+            with overheard(reasons) if words[0] in REFUSABLE else contextlib.nullcontext():
+                return str(self.root.tk.call("hal", *words))
         except tk.TclError as error:
-            self.say(str(error), True)
+            self.say(" ".join([*reasons, str(error)]), True)
             return None
 
     def show_text(self, text):
@@ -377,7 +401,12 @@ class Window:
         words = line.split()
         if words[0] == "halcmd":
             words.pop(0)
-        text = self.saved(words) if words[:1] == ["save"] and len(words) < 3 else self.hal(*words) if words else ""
+        if words[:1] == ["help"]:           # halcmd itself would write it on the terminal
+            text = subprocess.run(["halcmd", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False).stdout
+        elif words[:1] == ["save"] and len(words) < 3:
+            text = self.saved(words)
+        else:
+            text = self.hal(*words) if words else ""
         if text is None:
             return
         self.command.delete(0, "end")

@@ -183,11 +183,8 @@ class WatchView(ttk.Frame):
             self.set(row, text)
 
     def unlink(self, row):
-        try:
-            self.tk.call("hal", "unlinkp", row.item.name)
+        if self.text_dialog.hal("unlinkp", row.item.name) is not None:
             self.say(_("%s is not connected any more") % row.item.name)
-        except tk.TclError as error:
-            self.say(str(error), True)
         self.layout()
 
     # -- menus --------------------------------------------------------------------------
