@@ -18,6 +18,16 @@ echo 4711 > home/.latency
 run latency-test --nox --seconds 1 -
 run latency-test --nox --seconds 1 - 2ms | tail -2
 cat home/.latency
+echo "# ended by a signal"
+rm home/.latency
+for tool in "latency-test --nox 1ms" "latency-histogram --nox" "latency-plot --nox"; do
+    $tool > ended 2>&1 & pid=$!
+    until grep -q "interval\|sdev\|last" ended; do sleep 0.1; done
+    kill -HUP $pid
+    wait $pid; echo "${tool%% *} => $?"
+    realtime status > /dev/null || echo "no session is left"
+done
+cat home/.latency
 echo "# while another session runs"
 realtime start 2> /dev/null
 run latency-test --nox --seconds 1 1ms
@@ -35,4 +45,4 @@ t.update(9, -9, 0.0, None)  # nothing was measured yet: lowest above highest
 print("extremes stay:", t.minimum, t.maximum)
 PY
 /usr/bin/python3 low.py
-rm -rf home low.py
+rm -rf home low.py ended

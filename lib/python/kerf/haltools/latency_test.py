@@ -7,8 +7,12 @@ st bt; reset). Afterwards the worst jitter ever seen is kept in ~/.latency. Time
 """
 
 import os
+import signal
+import subprocess
 import sys
 import tempfile
+import threading
+import time
 from pathlib import Path
 
 from .. import clock
@@ -59,6 +63,13 @@ def keep_worst(path: Path, jitter_ns: int) -> int:
     return worst
 
 
+def end_panel():
+    """Ends the panel, also one that is just starting, and with it the session in order; for as long as this program runs."""
+    while True:
+        subprocess.run(["halcmd", "unloadusr", "lat"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        time.sleep(0.2)
+
+
 def main(arguments: list[str]) -> int:
     nox, seconds, words = False, 0, []
     rest = list(arguments)
@@ -100,6 +111,8 @@ def main(arguments: list[str]) -> int:
         python = str(Path(__file__).resolve().parents[2])
         env = dict(os.environ, PYTHONPATH=os.pathsep.join(
             p for p in (python, os.environ.get("PYTHONPATH")) if p))
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, lambda *_: threading.Thread(target=end_panel, daemon=True).start())
         status = clock.run(["halrun", "-f", str(script)], env=env).returncode
         if worst.exists():
             kept = keep_worst(Path.home() / ".latency", int(worst.read_text()))

@@ -3,6 +3,7 @@
 
 import contextlib
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -60,6 +61,9 @@ class RealtimeSession:
 def run_tool(program: str, work, own_session: bool) -> int:
     """Calls work(), in a realtime session of its own or in the one that runs; the exit status. Interrupts end it."""
     clock.join(program)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
     try:
         with RealtimeSession() if own_session else contextlib.nullcontext():
             work()
