@@ -109,6 +109,16 @@ int hal_command(ClientData data, Tcl_Interp *interp, int argc, Tcl_Obj *const ar
         return TCL_OK;
     }
     if (argc == 3 && first == "--join") return join_clock(state, Tcl_GetString(argv[2]));
+    if (argc == 2 && first == "--lend") { // to a program that the script waits for; empty: nothing to lend
+        char place[KERF_CLOCK_SLOT_LEN] = "";
+        if (state.joined && kerf_clock_lend(place, sizeof place) != 0) place[0] = 0;
+        Tcl_SetObjResult(interp, Tcl_NewStringObj(place, -1));
+        return TCL_OK;
+    }
+    if (argc == 2 && first == "--reclaim") {
+        kerf_clock_reclaim();
+        return TCL_OK;
+    }
     if (argc == 3 && first == "--sleep") {
         Tcl_WideInt ms;
         if (Tcl_GetWideIntFromObj(interp, argv[2], &ms) != TCL_OK) return TCL_ERROR;
