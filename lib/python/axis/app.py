@@ -551,6 +551,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     def start(self, first_file):
         """Everything after the widgets, in the documented order."""
         remote.serve(self.root, self, self.running)
+        for report in self.recorder.watch_crashes():
+            self.notifications.add("error", self.translate("The screen ended unexpectedly the last time. Report: %s") % report)
         for name in OPTIONS:
             self.send_option(name, getattr(self.vars, name).get())
         self.make_pins()
@@ -618,6 +620,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
                 thread.join(1.0)
         self.estimate.cancel()
         self.loader.close()
+        self.recorder.close()
         self.end_children()
         if getattr(self, "comp", None) is not None:
             self.comp.exit()

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+import glob
 import os
 import sys
 
@@ -113,7 +114,7 @@ def programs(op):
     app.notifications.clear()
     op.root.tk.call("edit_program")
     app.open_directory = "/"
-    print("no editor:", op.messages(), "reports:", os.path.exists(os.path.expanduser("~/.axis_reports")) and len(os.listdir(os.path.expanduser("~/.axis_reports"))))
+    print("no editor:", op.messages(), "reports:", len(glob.glob(os.path.expanduser("~/.axis_reports/report-*"))))
     with open(app.loaded_file) as f:
         text = f.read()
     with open(app.loaded_file, "w") as f:

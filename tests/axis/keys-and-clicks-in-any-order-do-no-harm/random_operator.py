@@ -183,7 +183,6 @@ def script(op):
     for step in range(STEPS):
         act()
         if step == KILL:
-            session.kill("milltask")
             end_of_task(op, act, rng, log)
         op.wait(rng.choice((0.0, 0.02, 0.1, 0.4)))
         for wrong in outside_limits(op):
@@ -217,23 +216,24 @@ def script(op):
 
 
 def end_of_task(op, act, rng, log):
-    """Task was killed: the operator goes on for a while, then the screen ends by itself, with no traceback. Does not return."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    """Task is killed: the operator goes on for a while, then the screen ends by itself, with no traceback. Does not return."""
+    ended = []                   # the launcher ends the screen
+    for end in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(end, lambda *_: ended.append(True))
+    session.kill("milltask")
     try:
         for _ in range(500):
             if rng.random() < 0.3:
                 act()
-            if not op.app.tick():
+            if ended or not op.app.tick():
                 break
             clock.sleep(0.02)
         else:
             print("the screen did not end")
-    except (KeyboardInterrupt, lib.tk.TclError):     # the launcher ends the screen
+    except lib.tk.TclError:      # the screen has ended itself
         pass
     except Exception:
         print(traceback.format_exc(), log[-6:])
-    for end in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(end, signal.SIG_IGN)
     for text in Trouble.texts + op.trouble:
         print(text)
     print("task killed, tracebacks:", len(Trouble.texts + op.trouble))

@@ -1,0 +1,21 @@
+#!/usr/bin/python3
+import ctypes
+import os
+
+import operator_lib as lib
+
+
+def script(op):
+    with open("transcript", "w") as out:
+        print([m.split("Report:")[0] for m in op.messages()], file=out)
+    if os.environ["RUN"] == "crash":
+        op.power_on()
+        op.home()
+        for n in range(3000):
+            op.app.recorder.note("a jog", n)
+        op.key("r")
+        op.wait(0.2)
+        ctypes.string_at(0)
+
+
+lib.run(script)
