@@ -224,6 +224,9 @@ class Look:
                 self.tell(path, "cut", f"{text!r} needs {self.measure(font, text) + used} pixels, has {width}")
         if self.number(path, "reqheight") > height + SLACK:
             self.tell(path, "cut", f"needs {self.number(path, 'reqheight')} pixels of height, has {height}")
+        _, top, _, high = map(int, map(str, self.listed(self.call(path, "bbox", 0))))
+        if abs(2 * top + high - height) > 4:
+            self.tell(path, "cut", f"letters from {top} to {top + high}, not in the middle of {height} pixels")
         self.contrast(path, kind)
 
     def canvas(self, path, width, height):
@@ -262,8 +265,21 @@ class Look:
                 longest = max((str(self.call(path, "set", item, column)) for item in self.listed(self.call(path, "children", ""))), key=len, default="")
                 if 0 < len(longest) <= NUMBER_DIGITS and self.measure(font, longest) + 4 > room:
                     self.tell(path, "cut", f"{longest!r} in {heading!r} needs {self.measure(font, longest) + 4} pixels, has {room}")
+        if "tree" in shown and not self.ways(path, "Treeview")[0]:
+            self.branches(path, "", font)
         if total > width + 2 and not self.ways(path, "Treeview")[0]:
             self.tell(path, "hidden", f"columns of {total} pixels in {width}")
+
+    def branches(self, path, parent, font, depth=1):
+        """The names of a tree's items in sight."""
+        indent = self.pixels(path, "Treeview", "indent") or 20
+        for item in self.listed(self.call(path, "children", parent)):
+            box, text = self.listed(self.call(path, "bbox", item, "#0")), str(self.call(path, "item", item, "-text"))
+            if box and len(text) <= NUMBER_DIGITS:
+                room = min(int(str(box[2])), self.number(path, "width") - int(str(box[0]))) - depth * indent
+                if self.measure(font, text) > room:
+                    self.tell(path, "cut", f"{text!r} needs {self.measure(font, text)} pixels, has {room}")
+            self.branches(path, item, font, depth + 1)
 
     def tabs(self, path, width):
         need = 0

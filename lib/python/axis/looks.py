@@ -127,6 +127,7 @@ class LooksPart:
         self.resize_widgets()
         self.icons.restyle(self.icon_px(), self.style.dark)
         self.root.tk.call("::axis::renew_dots")
+        tkfit.fields_anew(self.root)
         self.text_colours()
         self.notifications.wrap, self.notifications.pad = self.style.px(WRAP_PX), self.padding() - self.style.px(2)
         self.preview.text_px = self.letters_px()

@@ -13,6 +13,7 @@ from . import configs, tkstyle
 from .language import _
 from .tree import Tree
 
+LIST_PX = 240           # wide, for the names of configurations
 WELCOME = (_("Pick the configuration of your machine and press OK.\n"
            "Sample configurations are copied to your own folder first."))
 
@@ -67,11 +68,11 @@ class Picker:
         picture.create_polygon(px(34), px(2), px(42), px(2), px(42), px(14), px(38), px(20), px(34), px(14), fill=colours["ink"])
         return picture
 
-    @staticmethod
-    def make_list(panes):
+    def make_list(self, panes):
         box = ttk.Frame(panes)
         panes.add(box, weight=2)
         tree = ttk.Treeview(box, show="tree", selectmode="browse")
+        tree.column("#0", width=self.style.px(LIST_PX))
         bar = ttk.Scrollbar(box, command=tree.yview)
         tree.configure(yscrollcommand=bar.set)
         bar.pack(side="right", fill="y")
@@ -83,7 +84,7 @@ class Picker:
         panes.add(box, weight=3)
         picture = ttk.Label(box, anchor="center")
         bar = self.bar = ttk.Scrollbar(box)
-        text = tk.Text(box, wrap="word", width=40, height=10, state="disabled", relief="flat", padx=self.style.px(8), pady=self.style.px(8),
+        text = tk.Text(box, wrap="word", width=30, height=10, state="disabled", relief="flat", padx=self.style.px(8), pady=self.style.px(8),
                        font="TkDefaultFont", yscrollcommand=bar.set)
         bar.configure(command=text.yview)
         bar.pack(side="right", fill="y")

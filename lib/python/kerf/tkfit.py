@@ -15,6 +15,7 @@ FRAME_PX = 40           # of the screen's height, for the desktop's title and ba
 STEPS = 8               # at most, for one window
 LEAST_STEP, MOST_STEP = 0.75, 0.97
 
+FIELDS = ("TEntry", "TCombobox", "TSpinbox")
 SCROLLED, FEW_LINES = ("Text", "Listbox", "Treeview", "Canvas"), 4
 
 # Lengths in pixels that widgets were given, by class. Themes and named fonts follow by themselves.
@@ -94,6 +95,14 @@ def onto_screen(window):
         enlarge(window, asked(window))
 
 
+def fields_anew(widget):
+    """What is typed in keeps its letters in the middle: ttk has them where they were before the theme changed."""
+    for child in widget.winfo_children():
+        if child.winfo_class() in FIELDS:
+            child.configure(font=str(child.cget("font")))
+        fields_anew(child)
+
+
 class Fit:
     """restyle() sets fonts and themes by the style, whose scale and touch it changes."""
 
@@ -130,6 +139,7 @@ class Fit:
             share = share_of(window)
             if share >= 1 or not self.shrink(share):
                 break
+            fields_anew(self.root)
         enlarge(window, asked(window))
 
     def shrink(self, share):
@@ -166,4 +176,8 @@ class Fit:
             if kind == "Treeview":
                 for column in ("#0", *child.cget("columns")):
                     child.column(column, width=round(child.column(column, "width") * factor), minwidth=round(child.column(column, "minwidth") * factor))
+            for column in range(child.grid_size()[0]):
+                least = child.columnconfigure(column)["minsize"]
+                if least:
+                    child.columnconfigure(column, minsize=round(least * factor))
             self._lengths(child, factor)

@@ -149,8 +149,8 @@ def _themed(theme, colours, style, letters):
     theme.map("TCombobox", fieldbackground=[("readonly", colours["field"])], foreground=[("readonly", colours["ink"])],
               selectbackground=[("readonly", colours["field"])], selectforeground=[("readonly", colours["ink"])])
     for name in ("Vertical.TScrollbar", "Horizontal.TScrollbar"):
-        theme.configure(name, arrowsize=style.roomy(14, 10), background=face, arrowcolor=colours["ink"])
-        theme.map(name, background=[("disabled", face), ("active", colours["pressed"])])
+        theme.configure(name, arrowsize=style.roomy(14, 10), background=line, lightcolor=line, darkcolor=line, arrowcolor=colours["ink"], gripcount=0)
+        theme.map(name, **{part: [("disabled", face), ("active", colours["off"])] for part in ("background", "lightcolor", "darkcolor")})
     theme.configure("Treeview", rowheight=round(letters * (1.65 + style.touch)), background=colours["field"], foreground=colours["ink"],
                     fieldbackground=colours["field"], indent=style.px(18), borderwidth=1)
     theme.map("Treeview", background=[("selected", colours["select"])], foreground=[("selected", "#ffffff")])

@@ -29,6 +29,7 @@ DISABLED, ENABLED, ACTIVE = N_("Offsets Disabled"), N_("Offsets Enabled"), N_("O
 REMOVING, LIMIT = N_("Removing offsets"), N_("Waypoint limit (Disable required)")
 COLORS = {DISABLED: "#7fd67f", ENABLED: "cyan", ACTIVE: "#ff5a4d", REMOVING: "yellow", LIMIT: "orange"}
 MOTION_OFF = N_("Motion Off")
+PX_PER_POINT = 4 / 3
 
 
 class Unusable(Exception):
@@ -239,13 +240,15 @@ class Window:
 
     def __init__(self, root, offsets, options):
         import tkinter as tk
+        import tkinter.font
         from tkinter import ttk
         self.tk, self.root, self.offsets, self.options = tk, root, offsets, options
         self.style = tkstyle.apply(root)
         self.increment = tk.DoubleVar(root, value=options.inc[0])
         self.enable = tk.BooleanVar(root, value=offsets.enabled())
         self.backtrack = tk.BooleanVar(root, value=bool(hal.get_p("mv.backtrack-enable")))
-        self.font = ("DejaVu Sans", options.size)
+        # Pixels: points depend on what the display says of its size. A font with a name becomes smaller where the screen has no room.
+        self.font = tkinter.font.Font(root, family="DejaVu Sans", size=-self.style.px(options.size * PX_PER_POINT))
         self.values, self.entries, self.controls, self.countdown = {}, {}, [], None
         root.title("moveoff_gui")
         for kind in ("TCheckbutton", "TRadiobutton"):

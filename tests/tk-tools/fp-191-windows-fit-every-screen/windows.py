@@ -13,6 +13,7 @@ if "untranslated" in sys.argv:
 import hal
 import linuxcnc
 from PIL import Image
+import moveoff_gui
 import sim_pin
 import simulate_probe
 from kerf import launch_windows, pickconfig, relief, tkstyle
@@ -91,6 +92,14 @@ def probe(root):
     simulate_probe.Window(root, simulate_probe.Probe(sim_pin.Item("freebit")))
 
 
+def moved_off(root):
+    offsets = SimpleNamespace(display_only=False, enabled=lambda: True, may_enable=lambda: True, current=lambda axis: 1.5, wanted=lambda axis: 1.5, usage=lambda: 95,
+                              paused=lambda: True, applied=lambda: True, motion_on=lambda: True,
+                              status=lambda: (moveoff_gui._(moveoff_gui.LIMIT), moveoff_gui.COLORS[moveoff_gui.LIMIT]))
+    window = moveoff_gui.Window(root, offsets, moveoff_gui.parse([]))
+    window.popup(5, lambda: None)
+
+
 component = hal.component("mdro")
 for i in range(3):
     component.newpin(f"index-enable.{i}", hal.HAL_BIT, hal.HAL_IO)
@@ -103,7 +112,7 @@ PROGRAMS = {
     "linuxcnctop": lambda root: linuxcnctop.Window(root, Status()),
     "debuglevel": lambda root: debuglevel.Window(root, Status(), None),
     "teach-in": lambda root: teach_in.Window(root, Status(), sys.stdout),
-    "halscope": scope, "latency-test": latency, "ngcgui": form, "simulate_probe": probe,
+    "halscope": scope, "latency-test": latency, "ngcgui": form, "simulate_probe": probe, "moveoff_gui": moved_off,
     "errors": lambda root: launch_windows.Errors(root, "«milltask (process 1234) died unexpectedly; stopping everything»", "t.hal", "machine.ini"),
     "image-to-gcode": lambda root: image_to_gcode.Window(root, Image.new("L", (40, 30)), "a.png", relief.Settings()),
     "mdro": lambda root: mdro.Window(root, mdro.Readout(list("XYZ"), lambda i: 1.25, "inch"), component, 20),

@@ -62,7 +62,7 @@ def each(programs, look):
             look(name, root, make(root))
             root.update()
             for later in root.tk.splitlist(root.tk.call("after", "info")):
-                root.after_cancel(later)
+                root.tk.call("after", "cancel", later)
             root.destroy()
 
 

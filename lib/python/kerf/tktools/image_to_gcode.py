@@ -126,7 +126,8 @@ class Window:
         value = getattr(self.start, name)
         if name in relief.CHOICES:
             variable = tk.StringVar(self.root, _(relief.CHOICES[name][value]))
-            widget = ttk.Combobox(parent, textvariable=variable, values=[_(c) for c in relief.CHOICES[name]], state="readonly", width=18)
+            choices = [_(choice) for choice in relief.CHOICES[name]]
+            widget = ttk.Combobox(parent, textvariable=variable, values=choices, state="readonly", width=max(18, *map(len, choices)))
         elif isinstance(value, bool):
             variable = tk.BooleanVar(self.root, value)
             widget = ttk.Checkbutton(parent, variable=variable)
