@@ -297,7 +297,7 @@ class Window:
             self.controls.append(button)
         if not self.options.noentry:
             entry = tk.Entry(table, width=9, justify="right", font=self.font)
-            entry.grid(row=row, column=5, padx=4)
+            entry.grid(row=row, column=5, padx=4, sticky="ns", ipady=self.style.roomy(1, 5))
             for key in ("<Return>", "<KP_Enter>"):
                 entry.bind(key, lambda _event: self.enter(axis))
             self.entries[axis] = entry
