@@ -123,7 +123,8 @@ py::list arc_to_segments(const py::object &canon, double x1, double y1, double c
     for (py::handle h : canon.attr("lo"))
         if (i < 9) start[i++] = h.cast<double>();
     double scale = 25.4;
-    if (py::hasattr(canon, "length_units")) scale *= canon.attr("length_units").cast<double>();
+    const py::object units = py::getattr(canon, "length_units", py::none());
+    if (PyNumber_Check(units.ptr())) scale *= units.cast<double>(); // a canon may answer every name with a method
     std::vector<Point9> points;
     arc_segments(points, frame, canon.attr("plane").cast<int>(), start, x1, y1, cx, cy, rot, z1,
                  {0, 0, 0, a, b, c, u, v, w}, max_segments, scale);

@@ -72,6 +72,14 @@ with tempfile.TemporaryDirectory() as d:
     lines = [l[1] for l in log if l[0] == "next_line"]
     check(lines == [0, 3, 4, 5] and result == (5, 5), f"lines of a % file after init codes, and the one with the error: {lines} {result}")
 
+    arcs = Canon(d)         # answers every name, also length_units
+    arcs.lo, arcs.plane, arcs.rotation_cos, arcs.rotation_sin = (1.,) + (0.,) * 8, 1, 1., 0.
+    for letter in "xyzabcuvw":
+        setattr(arcs, "g5x_offset_" + letter, 1.)
+        setattr(arcs, "g92_offset_" + letter, -1.)
+    points = gcode.arc_to_segments(arcs, 0., 1., 0., 0., 1, 2., *(0.,) * 6, 64)
+    check(len(points) == 32 and points[-1] == (0., 1., 2.) + (0.,) * 6 and points[15][2] == 1., points)
+
     class Raises(Canon):
         def straight_feed(self, *a): raise ValueError("x")
     try:
