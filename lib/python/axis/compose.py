@@ -251,7 +251,7 @@ class Composer:
                 c.live.append(self.item(shapes.cone(at, CONE_RADIUS * size, CONE_HEIGHT * size, up), name))
             return
         at, turns = shapes.placed(nine, self.s.geometry, self.s.coordinates, self.offset_nine())
-        tool = stat.tool_table[0] if stat.tool_in_spindle > 0 else None
+        tool = self.current_tool()
         diameter = tool.diameter * u if tool is not None else 0.0
         if tool is not None and self.s.lathe:
             if 1 <= tool.orientation <= 9:
@@ -271,6 +271,10 @@ class Composer:
         if len(solid):
             c.live.append(Item(solid, [1] * len(solid), self.colour(name, self.alpha["tool_alpha"]), 1, True))
         c.live.append(self.item(arrays, name, 1, 0.8))
+
+    def current_tool(self):
+        """Entry of the tool table, or None."""
+        return self.stat.tool_table[0] if self.stat.tool_in_spindle > 0 else None
 
     def offset_nine(self):
         return [(a + b) * (1.0 if 3 <= i <= 5 else self.unit) for i, (a, b) in enumerate(zip(self.stat.g5x_offset, self.stat.g92_offset))]

@@ -12,6 +12,14 @@ _REMOVED = {
 }
 
 
+def __getattr__(name):
+    """GlCanonDraw needs a display's modules: they come when it is asked for."""
+    if name == "GlCanonDraw":
+        from rs274.glcanon_draw import GlCanonDraw
+        return GlCanonDraw
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
 class GLCanon(Translated, ArcsToSegmentsMixin):
     lineno = -1
 

@@ -1,0 +1,309 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""GlCanonDraw: a preview for screens of any toolkit that have a widget with an OpenGL 3.3 context.
+
+    class View(SomeWidget, GlCanonDraw):
+        def __init__(self, ...):
+            GlCanonDraw.__init__(self, linuxcnc.stat(), linuxcnc.positionlogger(...))
+            self.init_glcanondraw("XYZ")
+        def activate(self): ...         # makes the context current; True
+        def deactivate(self): ...
+        def swapbuffers(self): ...
+        def winfo_width(self): ...      # pixels; winfo_height() likewise
+        def get_show_extents(self): return False        # and the other get_*(), where the default does not fit
+
+load_preview(file, canon, *initcodes) reads a program, redraw() draws. Lengths are inches where nothing else is said.
+The scene and the drawing are those of AXIS (axis.compose, kerf.glpath).
+"""
+
+from types import SimpleNamespace
+
+import gcode
+import kerf_raster
+from axis.compose import ALPHA, COLOURS, PLOT, Composer
+from axis.dro import Readout
+from axis.settings import LETTERS, MM_PER_INCH
+from kerf.glpath import Renderer
+
+VIEWS = "x", "y", "z", "p"          # of get_view()
+CONE_BASESIZE = 0.5
+PLOT_NAMES = "jog", "traverse", "feed", "arc", "toolchange", "probing"
+PICK_PX = 5.0
+LETTER_PX = 13
+
+
+def shares(text):
+    """#rrggbb as shares of 1."""
+    return tuple(int(text[n:n + 2], 16) / 255 for n in (1, 3, 5))
+
+
+class Recorded:
+    """What a canon has recorded, as a composer takes it."""
+
+    def __init__(self, canon):
+        record = self.record = canon.program_geometry
+        self.n_moves, self.foam_z, self.foam_w = record.n_moves, canon.foam_z, canon.foam_w
+        self.extents, self.extents_tool = record.extents, record.extents_notool
+        self.extents_zero_rxy, self.extents_tool_zero_rxy = record.extents_zero_rxy, record.extents_notool_zero_rxy
+        m1xx = canon.colors.get("m1xx")
+        self.marks = [(line, x, y, z, plane, m1xx is not None and colour == m1xx) for line, colour, x, y, z, plane in canon.dwells]
+
+    def release_path(self):
+        """The canon keeps it."""
+
+
+class Scenes(Composer):
+    """A composer that draws what a canon recorded, and the tool that the widget says."""
+
+    def drawing(self, program, plane):
+        record = program.record         # its points are placed already
+        return kerf_raster.Drawing(record.positions(max(plane, 0)), record.kinds, record.lines, "XYZ")
+
+
+class GlCanonDraw:
+    """The hooks get_*() have defaults; a widget says activate, deactivate, swapbuffers, winfo_width and winfo_height.
+
+    Names that begin with _ are its own: widgets have names like size() and options() already.
+    """
+
+    colors = {name: shares(text) for name, text in COLOURS.items()} | ALPHA | {
+        f"backplot{name}": tuple(v / 255 for v in colour[:3]) for name, colour in zip(PLOT_NAMES, PLOT)} | {
+        f"backplot{name}_alpha": colour[3] / 255 for name, colour in zip(PLOT_NAMES, PLOT)}
+
+    def __init__(self, s=None, lp=None, g=None):
+        """s: linuxcnc.stat(); lp: linuxcnc.positionlogger() or None; g: the canon shown first."""
+        self.stat, self.lp, self.canon = s, lp, g
+        self.colors = dict(type(self).colors)
+        self.highlight_line = None
+        self.current_line = 0
+        self.cone_basesize = CONE_BASESIZE
+        self._renderer = self._scenes = self._shown = None
+        self.init_glcanondraw()
+
+    def init_glcanondraw(self, trajcoordinates="XYZABCUVW", kinsmodule="trivkins", msg=""):
+        """The machine's letters, and the name of its kinematics, which does not change the picture."""
+        self.trajcoordinates, self.kinsmodule = trajcoordinates.upper().replace(" ", ""), kinsmodule
+        self._scenes = None
+
+    # -- hooks ---------------------------------------------------------------------------------
+
+    def activate(self):
+        return True
+
+    def deactivate(self):
+        pass
+
+    def swapbuffers(self):
+        pass
+
+    def winfo_width(self):
+        return 640
+
+    def winfo_height(self):
+        return 480
+
+    def user_plot(self):
+        """Draws more, over the program, with the context current."""
+
+    def is_lathe(self): return False
+    def is_foam(self): return False
+    def get_foam_z(self): return 0.0
+    def get_foam_w(self): return 1.5
+    def get_geometry(self): return "XYZABCUVW"
+    def get_joints_mode(self): return False
+    def get_num_joints(self): return len(self.trajcoordinates)
+    def get_show_commanded(self): return True
+    def get_show_extents(self): return True
+    def get_show_limits(self): return True
+    def get_show_live_plot(self): return True
+    def get_show_machine_speed(self): return True
+    def get_show_metric(self): return True
+    def get_show_program(self): return True
+    def get_show_rapids(self): return True
+    def get_show_relative(self): return True
+    def get_show_tool(self): return True
+    def get_show_distance_to_go(self): return False
+    def get_show_offsets(self): return False
+    def get_program_alpha(self): return False
+    def get_grid_size(self): return 0.0
+    def get_view(self): return 3
+    def get_a_axis_wrapped(self): return False
+    def get_b_axis_wrapped(self): return False
+    def get_c_axis_wrapped(self): return False
+
+    def get_font_info(self):
+        """(width of a letter, height of a line, unused) in pixels."""
+        return 0.6 * LETTER_PX, LETTER_PX, None
+
+    def get_current_tool(self):
+        """Entry of the tool table, or None."""
+        return self.stat.tool_table[0] if self.stat is not None and self.stat.tool_in_spindle > 0 else None
+
+    def get_highlight_line(self):
+        return self.highlight_line
+
+    # -- units ---------------------------------------------------------------------------------
+
+    def _units_per_inch(self, unit=None):
+        """unit: machine units a mm; None: the machine's."""
+        return ((self.stat.linear_units if unit is None and self.stat is not None else unit) or 1.0) * MM_PER_INCH
+
+    def to_internal_linear_unit(self, v, unit=None):
+        return v / self._units_per_inch(unit)
+
+    def to_internal_units(self, pos, unit=None):
+        """Nine machine coordinates in inches and degrees."""
+        scale = self._units_per_inch(unit)
+        return [v if 3 <= i <= 5 else v / scale for i, v in enumerate(pos)]
+
+    def from_internal_units(self, pos, unit=None):
+        scale = self._units_per_inch(unit)
+        return [v if 3 <= i <= 5 else v * scale for i, v in enumerate(pos)]
+
+    # -- programs ------------------------------------------------------------------------------
+
+    def set_canon(self, canon):
+        self.canon, self._shown = canon, None
+
+    def load_preview(self, f, canon, *args):
+        """Reads a program into a canon: (result, last line) of gcode.parse. Ctrl-C and (AXIS,stop) keep the part so far."""
+        self.set_canon(canon)
+        result, line = 0, 0
+        try:
+            result, line = gcode.parse(f, canon, *args)
+        except KeyboardInterrupt:
+            canon.preview_incomplete = True
+        if result <= gcode.MIN_ERROR:
+            canon.calc_extents()
+        self._shown = None
+        return result, line
+
+    def set_highlight_line(self, line):
+        """Shows a line of the program, None: none."""
+        self.highlight_line = line
+        self.update_highlight_variable(line)
+        if self.canon is not None:
+            self.canon.highlight_line = line
+
+    def set_current_line(self, line):
+        self.current_line = line
+
+    def update_highlight_variable(self, line):
+        """For a subclass that shows the line elsewhere."""
+
+    def select(self, x, y):
+        """Highlights the line of the program at a pixel; where there is none, none."""
+        scenes, size = self._composed(), self._size()
+        kinds = 7 if self.get_show_rapids() else 6
+        found = next((line for line in (d.pick(scenes.camera.matrix(*size), *size, x, y, PICK_PX, kinds) for d in scenes.drawings) if line >= 0), None)
+        self.set_highlight_line(found)
+
+    def set_cone_basesize(self, size):
+        """Of the tool's cone; out of .025 to 2: the default."""
+        self.cone_basesize = size if 0.025 <= size <= 2 else CONE_BASESIZE
+
+    def stale_dlist(self, name):
+        """Nothing is kept that could be stale but the program."""
+        if name in ("program_rapids", "program_norapids", "select_rapids", "select_norapids"):
+            self._shown = None
+
+    # -- the picture ---------------------------------------------------------------------------
+
+    def _size(self):
+        return max(int(self.winfo_width()), 1), max(int(self.winfo_height()), 1)
+
+    def _find(self, _section, _name, default=None):
+        return default
+
+    def _settings(self):
+        """As the composer and the readout of AXIS want them."""
+        wrapped = {c for c in "ABC" if getattr(self, f"get_{c.lower()}_axis_wrapped")()}
+        return SimpleNamespace(
+            units_per_mm=(self.stat.linear_units if self.stat is not None else 0) or 1.0, foam=bool(self.is_foam()), foam_z=self.get_foam_z(),
+            foam_w=self.get_foam_w(), lathe=bool(self.is_lathe()), geometry=self.get_geometry().upper(), coordinates=self.trajcoordinates,
+            axes="".join(c for c in LETTERS if c in self.trajcoordinates), joints=self.get_num_joints(), find=self._find,
+            flag=lambda section, name: section[-1] in wrapped and name == "WRAPPED_ROTARY")
+
+    def _options(self):
+        line = self.get_highlight_line()
+        return SimpleNamespace(
+            show_program=self.get_show_program(), show_rapids=self.get_show_rapids(), program_alpha=self.get_program_alpha(),
+            show_live_plot=self.get_show_live_plot(), show_tool=self.get_show_tool(), show_extents=self.get_show_extents(),
+            show_offsets=self.get_show_offsets(), show_machine_limits=self.get_show_limits(), grid_size=self.get_grid_size() or 0.0,
+            highlight_line=line if line is not None else -1, metric=self.get_show_metric(), coord_type=self.get_show_relative(),
+            display_type=self.get_show_commanded(), dro_large_font=False, cone_size=self.cone_basesize, cone_scaling=True, min_tool_diameter=0.0)
+
+    def _composed(self):
+        """The scenes, with the program that the canon has now."""
+        settings = self._settings()
+        what = {name: value for name, value in vars(settings).items() if not callable(value)}      # units are 0 before the first poll
+        if self._scenes is None or what != self._made_for:
+            self._scenes, self._made_for, self._shown, self._view = Scenes(settings, self._options(), self.lp, round(self.get_font_info()[1])), what, None, None
+            self._scenes.current_tool = lambda: self.get_current_tool()
+        scenes = self._scenes
+        scenes.stat, scenes.options = self.stat, self._options()
+        for name, value in self.colors.items():
+            if name.endswith("_alpha"):
+                scenes.alpha[name] = value
+            elif name in scenes.colours:
+                scenes.colours[name] = "#%02x%02x%02x" % tuple(round(255 * v) for v in value[:3])
+        scenes.scene.back = scenes.colour("back")
+        view = self.get_view()
+        if view != self._view:
+            self._view = view
+            scenes.camera.set_view("lathe" if scenes.s.lathe and view != 3 else VIEWS[view] if view in range(len(VIEWS)) else "p")
+            scenes.camera.fit(*scenes.shown_box())
+        if self._shown is None:
+            scenes.set_program(Recorded(self.canon) if self.canon is not None else None)
+            self._shown = True
+        return scenes
+
+    def _view_options(self):
+        return SimpleNamespace(relative=self.get_show_relative(), commanded=self.get_show_commanded(), metric=self.get_show_metric(),
+                               joints=self.get_joints_mode(), offsets=self.get_show_offsets(), speed=self.get_show_machine_speed(),
+                               distance_to_go=self.get_show_distance_to_go(),
+                               extra_joints=max(0, self.get_num_joints() - len(self.trajcoordinates)))
+
+    def posstrs(self):
+        """(on a limit by line, homed by line, lines of the short list, lines of the long list)."""
+        view, readout = self._view_options(), Readout(self._settings())
+        view.offsets = False
+        short = readout.lines(self.stat, view)
+        view.offsets = True
+        long = readout.lines(self.stat, view)
+        joints = self.get_num_joints()
+        homed, limits = list(self.stat.homed[:joints]), [bool(v) for v in self.stat.limit[:joints]]
+        return limits, homed, short, long
+
+    def realize(self):
+        """Makes what is needed in the current context; redraw() does it, too."""
+        if self._renderer is None:
+            from kerf import gl
+            self._renderer = Renderer(gl.library())
+
+    def redraw(self):
+        """Draws everything and shows it."""
+        if not self.activate():
+            return
+        try:
+            self.realize()
+            scenes, size = self._composed(), self._size()
+            if self.stat is not None:
+                limits, homed, short, long = self.posstrs()
+                scenes.readout_lines = long if self.get_show_offsets() else short
+                scenes.marks = list(zip(homed, limits))[:len(short)]
+            matrix = scenes.camera.matrix(*size)
+            scenes.compose(*size, matrix)
+            scenes.compose_live(*size, matrix)
+            self._renderer.resize(*size)
+            self._renderer.draw_still(scenes.scene, matrix, scenes.text_px, exact=True)
+            self._renderer.draw_frame(scenes.scene, matrix)
+            self.user_plot()
+            self._renderer.present()
+            self.swapbuffers()
+        finally:
+            self.deactivate()
+
+    def redraw_perspective(self, *_args, **_options):
+        self.redraw()
+
+    redraw_ortho = redraw_perspective
