@@ -99,14 +99,23 @@ static double pace_run(const struct pace_move *m, const struct pace *joins, int 
     return sum;
 }
 
+/* The best window for a move from rest to rest that reaches no limit but that of jerk. */
+static double short_window(const struct pace_move *m)
+{
+    return cbrt(m->len / (2 * m->j));
+}
+
 /* The shortest time for up to two moves in one run. */
 static double pace_best(const struct traj *tj, const struct pace_move *m, const struct pace *joins, int moves)
 {
     double t = 0, best = 1e300;
 
-    for (int i = 0; i < moves; i++) t = fmax(t, fmin(m[i].a / m[i].j, sqrt(m[i].v / m[i].j)));
+    for (int i = 0; i < moves; i++)
+        t = fmax(t, fmin(fmin(m[i].a / m[i].j, sqrt(m[i].v / m[i].j)), 2 * short_window(&m[i])));
     for (int n = 0; n < PACE_WINDOWS && t >= tj->dt; n++, t /= PACE_STEP) {
-        best = fmin(best, pace_run(m, joins, moves, t, tj->dt));
+        double sum = pace_run(m, joins, moves, t, tj->dt);
+        if (sum > best) break;
+        best = sum;
     }
     return best;
 }
@@ -119,7 +128,12 @@ int pace_rests(const struct traj *tj, uint32_t c, double w)
     struct pace first[2] = { joins[0], { 0, 0 } }, second[2] = { { 0, 0 }, joins[2] };
 
     if (m[0].j <= 0 || m[1].j <= 0) return 0;
-    if (joins[1].v > 0.5 * fmin(m[0].v, m[1].v)) return 0; /* hardly slower than without the corner */
+    /* Not slower than half of what the moves allow, or than anything from rest to rest. */
+    if (joins[1].v > 0.5 * fmin(m[0].v, m[1].v)) return 0;
+    for (int i = 0; i < 2; i++) {
+        double t = short_window(&m[i]);
+        if (joins[1].v > m[i].j * t * t) return 0;
+    }
     return pace_best(tj, &m[0], first, 1) + pace_best(tj, &m[1], second, 1) < pace_best(tj, m, joins, 2);
 }
 
