@@ -62,7 +62,7 @@ class Scenes(Composer):
 class GlCanonDraw:
     """The hooks get_*() have defaults; a widget says activate, deactivate, swapbuffers, winfo_width and winfo_height.
 
-    Names that begin with _ are its own: widgets have names like size() and options() already.
+    Its own names begin with _preview_: widgets have most others already.
     """
 
     colors = {name: shares(text) for name, text in COLOURS.items()} | ALPHA | {
@@ -76,13 +76,13 @@ class GlCanonDraw:
         self.highlight_line = None
         self.current_line = 0
         self.cone_basesize = CONE_BASESIZE
-        self._renderer = self._scenes = self._shown = None
+        self._preview_renderer = self._preview_scenes = self._preview_shown = None
         self.init_glcanondraw()
 
     def init_glcanondraw(self, trajcoordinates="XYZABCUVW", kinsmodule="trivkins", msg=""):
         """The machine's letters, and the name of its kinematics, which does not change the picture."""
         self.trajcoordinates, self.kinsmodule = trajcoordinates.upper().replace(" ", ""), kinsmodule
-        self._scenes = None
+        self._preview_scenes = None
 
     # -- hooks ---------------------------------------------------------------------------------
 
@@ -143,26 +143,26 @@ class GlCanonDraw:
 
     # -- units ---------------------------------------------------------------------------------
 
-    def _units_per_inch(self, unit=None):
+    def _preview_units(self, unit=None):
         """unit: machine units a mm; None: the machine's."""
         return ((self.stat.linear_units if unit is None and self.stat is not None else unit) or 1.0) * MM_PER_INCH
 
     def to_internal_linear_unit(self, v, unit=None):
-        return v / self._units_per_inch(unit)
+        return v / self._preview_units(unit)
 
     def to_internal_units(self, pos, unit=None):
         """Nine machine coordinates in inches and degrees."""
-        scale = self._units_per_inch(unit)
+        scale = self._preview_units(unit)
         return [v if 3 <= i <= 5 else v / scale for i, v in enumerate(pos)]
 
     def from_internal_units(self, pos, unit=None):
-        scale = self._units_per_inch(unit)
+        scale = self._preview_units(unit)
         return [v if 3 <= i <= 5 else v * scale for i, v in enumerate(pos)]
 
     # -- programs ------------------------------------------------------------------------------
 
     def set_canon(self, canon):
-        self.canon, self._shown = canon, None
+        self.canon, self._preview_shown = canon, None
 
     def load_preview(self, f, canon, *args):
         """Reads a program into a canon: (result, last line) of gcode.parse. Ctrl-C and (AXIS,stop) keep the part so far."""
@@ -174,7 +174,7 @@ class GlCanonDraw:
             canon.preview_incomplete = True
         if result <= gcode.MIN_ERROR:
             canon.calc_extents()
-        self._shown = None
+        self._preview_shown = None
         return result, line
 
     def set_highlight_line(self, line):
@@ -192,10 +192,30 @@ class GlCanonDraw:
 
     def select(self, x, y):
         """Highlights the line of the program at a pixel; where there is none, none."""
-        scenes, size = self._composed(), self._size()
+        scenes, size = self._preview_composed(), self._preview_size()
         kinds = 7 if self.get_show_rapids() else 6
         found = next((line for line in (d.pick(scenes.camera.matrix(*size), *size, x, y, PICK_PX, kinds) for d in scenes.drawings) if line >= 0), None)
         self.set_highlight_line(found)
+
+    # -- the view ------------------------------------------------------------------------------
+
+    def pan(self, dx, dy):
+        """By pixels."""
+        self._preview_composed().camera.pan(dx, dy, *self._preview_size())
+
+    def rotate(self, dx, dy):
+        """By pixels of the mouse; lathes are not turned."""
+        if not self.is_lathe():
+            self._preview_composed().camera.rotate(dx, dy)
+
+    def zoom(self, factor):
+        """More than 1: farther away."""
+        self._preview_composed().camera.zoom(factor)
+
+    def fit(self):
+        """Shows all of the program."""
+        scenes = self._preview_composed()
+        scenes.camera.fit(*scenes.shown_box())
 
     def set_cone_basesize(self, size):
         """Of the tool's cone; out of .025 to 2: the default."""
@@ -204,26 +224,26 @@ class GlCanonDraw:
     def stale_dlist(self, name):
         """Nothing is kept that could be stale but the program."""
         if name in ("program_rapids", "program_norapids", "select_rapids", "select_norapids"):
-            self._shown = None
+            self._preview_shown = None
 
     # -- the picture ---------------------------------------------------------------------------
 
-    def _size(self):
+    def _preview_size(self):
         return max(int(self.winfo_width()), 1), max(int(self.winfo_height()), 1)
 
-    def _find(self, _section, _name, default=None):
+    def _preview_find(self, _section, _name, default=None):
         return default
 
-    def _settings(self):
+    def _preview_settings(self):
         """As the composer and the readout of AXIS want them."""
         wrapped = {c for c in "ABC" if getattr(self, f"get_{c.lower()}_axis_wrapped")()}
         return SimpleNamespace(
             units_per_mm=(self.stat.linear_units if self.stat is not None else 0) or 1.0, foam=bool(self.is_foam()), foam_z=self.get_foam_z(),
             foam_w=self.get_foam_w(), lathe=bool(self.is_lathe()), geometry=self.get_geometry().upper(), coordinates=self.trajcoordinates,
-            axes="".join(c for c in LETTERS if c in self.trajcoordinates), joints=self.get_num_joints(), find=self._find,
+            axes="".join(c for c in LETTERS if c in self.trajcoordinates), joints=self.get_num_joints(), find=self._preview_find,
             flag=lambda section, name: section[-1] in wrapped and name == "WRAPPED_ROTARY")
 
-    def _options(self):
+    def _preview_options(self):
         line = self.get_highlight_line()
         return SimpleNamespace(
             show_program=self.get_show_program(), show_rapids=self.get_show_rapids(), program_alpha=self.get_program_alpha(),
@@ -232,15 +252,16 @@ class GlCanonDraw:
             highlight_line=line if line is not None else -1, metric=self.get_show_metric(), coord_type=self.get_show_relative(),
             display_type=self.get_show_commanded(), dro_large_font=False, cone_size=self.cone_basesize, cone_scaling=True, min_tool_diameter=0.0)
 
-    def _composed(self):
+    def _preview_composed(self):
         """The scenes, with the program that the canon has now."""
-        settings = self._settings()
+        settings = self._preview_settings()
         what = {name: value for name, value in vars(settings).items() if not callable(value)}      # units are 0 before the first poll
-        if self._scenes is None or what != self._made_for:
-            self._scenes, self._made_for, self._shown, self._view = Scenes(settings, self._options(), self.lp, round(self.get_font_info()[1])), what, None, None
-            self._scenes.current_tool = lambda: self.get_current_tool()
-        scenes = self._scenes
-        scenes.stat, scenes.options = self.stat, self._options()
+        if self._preview_scenes is None or what != self._preview_settings_made:
+            self._preview_scenes = Scenes(settings, self._preview_options(), self.lp, round(self.get_font_info()[1]))
+            self._preview_settings_made, self._preview_shown, self._preview_view = what, None, None
+            self._preview_scenes.current_tool = lambda: self.get_current_tool()
+        scenes = self._preview_scenes
+        scenes.stat, scenes.options = self.stat, self._preview_options()
         for name, value in self.colors.items():
             if name.endswith("_alpha"):
                 scenes.alpha[name] = value
@@ -248,16 +269,16 @@ class GlCanonDraw:
                 scenes.colours[name] = "#%02x%02x%02x" % tuple(round(255 * v) for v in value[:3])
         scenes.scene.back = scenes.colour("back")
         view = self.get_view()
-        if view != self._view:
-            self._view = view
+        if view != self._preview_view:
+            self._preview_view = view
             scenes.camera.set_view("lathe" if scenes.s.lathe and view != 3 else VIEWS[view] if view in range(len(VIEWS)) else "p")
             scenes.camera.fit(*scenes.shown_box())
-        if self._shown is None:
+        if self._preview_shown is None:
             scenes.set_program(Recorded(self.canon) if self.canon is not None else None)
-            self._shown = True
+            self._preview_shown = True
         return scenes
 
-    def _view_options(self):
+    def _preview_readout(self):
         return SimpleNamespace(relative=self.get_show_relative(), commanded=self.get_show_commanded(), metric=self.get_show_metric(),
                                joints=self.get_joints_mode(), offsets=self.get_show_offsets(), speed=self.get_show_machine_speed(),
                                distance_to_go=self.get_show_distance_to_go(),
@@ -265,7 +286,7 @@ class GlCanonDraw:
 
     def posstrs(self):
         """(on a limit by line, homed by line, lines of the short list, lines of the long list)."""
-        view, readout = self._view_options(), Readout(self._settings())
+        view, readout = self._preview_readout(), Readout(self._preview_settings())
         view.offsets = False
         short = readout.lines(self.stat, view)
         view.offsets = True
@@ -276,9 +297,9 @@ class GlCanonDraw:
 
     def realize(self):
         """Makes what is needed in the current context; redraw() does it, too."""
-        if self._renderer is None:
+        if self._preview_renderer is None:
             from kerf import gl
-            self._renderer = Renderer(gl.library())
+            self._preview_renderer = Renderer(gl.library())
 
     def redraw(self):
         """Draws everything and shows it."""
@@ -286,7 +307,7 @@ class GlCanonDraw:
             return
         try:
             self.realize()
-            scenes, size = self._composed(), self._size()
+            scenes, size = self._preview_composed(), self._preview_size()
             if self.stat is not None:
                 limits, homed, short, long = self.posstrs()
                 scenes.readout_lines = long if self.get_show_offsets() else short
@@ -294,11 +315,11 @@ class GlCanonDraw:
             matrix = scenes.camera.matrix(*size)
             scenes.compose(*size, matrix)
             scenes.compose_live(*size, matrix)
-            self._renderer.resize(*size)
-            self._renderer.draw_still(scenes.scene, matrix, scenes.text_px, exact=True)
-            self._renderer.draw_frame(scenes.scene, matrix)
+            self._preview_renderer.resize(*size)
+            self._preview_renderer.draw_still(scenes.scene, matrix, scenes.text_px, exact=True)
+            self._preview_renderer.draw_frame(scenes.scene, matrix)
             self.user_plot()
-            self._renderer.present()
+            self._preview_renderer.present()
             self.swapbuffers()
         finally:
             self.deactivate()

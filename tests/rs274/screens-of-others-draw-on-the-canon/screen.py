@@ -57,7 +57,7 @@ class Screen(GlCanonDraw):
     def picture(self):
         self.calls.clear()
         self.redraw()
-        return self._renderer.pixels().copy()
+        return self._preview_renderer.pixels().copy()
 
 
 def changed(a, b):
@@ -86,7 +86,7 @@ with tempfile.TemporaryDirectory() as folder, gl.OffScreen(*SIZE) as off:
     del screen.get_current_tool
     screen.redraw()
     # a point of the line X50 in the picture, and one beside everything
-    at = screen._scenes.camera.pixel((1.0, 0.0, 0.0), *SIZE)
+    at = screen._preview_scenes.camera.pixel((1.0, 0.0, 0.0), *SIZE)
     screen.select(*at)
     print("picked line:", screen.get_highlight_line(), "shown:", changed(full, screen.picture()) > 20)
     screen.select(SIZE[0] - 3, SIZE[1] - 3)
