@@ -17,6 +17,7 @@ from .check_probing import dead_tests
 from .ini_schema import OLD, OPEN_SECTIONS, SCHEMA
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+MOTION_KEY = 100             # of motmod, where nothing else is said
 NEAR = 0.75                  # similarity from which a name is taken for a typing error
 # Speeds that no machine of this kind reaches, in units a second: they were meant a minute.
 TOO_FAST = {"mm": 3000.0, "inch": 120.0}
@@ -293,19 +294,30 @@ class Settings:
             self.c.warning(f"[EMCIO]TOOL_CHANGE_POSITION: {len(position.split())} numbers; it takes 3, 6 or 9", "EMCIO",
                            "TOOL_CHANGE_POSITION")
         halfiles = ini.all("HAL", "HALFILE")
+        self.motion_key(halfiles)
         if "" in halfiles and any(halfiles[halfiles.index(""):]):
             self.c.warning("[HAL]HALFILE: An empty one ends the list; what follows is not loaded", "HAL", "HALFILE")
+
+    def motion_key(self, halfiles):
+        """Task finds motion in shared memory of this key; motmod takes another unless it is told."""
+        key = number(self.ini.get("EMCMOT", "SHMEM_KEY") or "")
+        if key is None or key == MOTION_KEY or "key=" in (self.ini.get("EMCMOT", "EMCMOT") or ""):
+            return
+        paths = [self.find(entry.split()[0]) for entry in halfiles if entry.strip()]
+        if not any("key=" in Path(p).read_text(errors="replace") for p in paths if p):
+            self.c.warning("[EMCMOT]SHMEM_KEY: No HAL file gives motmod key=[EMCMOT]SHMEM_KEY, so task does not find it; take the line out",
+                           "EMCMOT", "SHMEM_KEY")
 
     # -- files -------------------------------------------------------------------------------
 
     def find(self, name):
-        """A file of the machine as the launcher looks for HAL files."""
+        """The path of a file as the launcher looks for HAL files, or None."""
         name = os.path.expanduser(name)
         hallib = os.environ.get("HALLIB_DIR", "")
-        if name.startswith("LIB:"):
-            return os.path.isfile(os.path.join(hallib, name[4:]))
         folders = [str(self.folder) if f == "." else f for f in os.environ.get("HALLIB_PATH", f".:{hallib}").split(":")]
-        return any(os.path.isfile(os.path.join(f, name)) for f in folders)
+        if name.startswith("LIB:"):
+            name, folders = name[4:], [hallib]
+        return next((p for p in (os.path.join(f, name) for f in folders) if os.path.isfile(p)), None)
 
     def path(self, name):
         return self.folder / os.path.expanduser(name)

@@ -60,6 +60,8 @@ check '/^\[TRAJ\]/,/^$/s/^DEFAULT_LINEAR_VELOCITY.*/DEFAULT_LINEAR_VELOCITY = 20
 check 's/^TOOL_TABLE.*/&\nTOOL_CHANGE_POSITION = 1 2/'
 check 's/^\[DISPLAY\]/&\nEMBED_TAB_NAME = x/'
 check 's/^HALFILE = mill.hal/&\nHALFILE =/'
+check 's/^EMCMOT = motmod/&\nSHMEM_KEY = 111/'
+check 's/^EMCMOT = motmod/& key=111\nSHMEM_KEY = 111/'
 echo "== files"
 check 's/^HALFILE = mill.hal/HALFILE = mil.hal/'
 check 's/^HALFILE = mill.hal/HALFILE = LIB:no.tcl/'
