@@ -12,7 +12,7 @@ import tkinter as tk
 import traceback
 
 import linuxcnc
-from kerf import clock, gl, language
+from kerf import clock, gl, language, tkstyle
 from kerf.failures import Recorder
 from kerf.tktools import ngcgui_tabs
 from kerf.tree import Tree
@@ -641,6 +641,7 @@ def main(argv):
         return 1
     try:
         root = tk.Tk(className="Axis", baseName="axis")
+        tkstyle.need_letters(root)
     except tk.TclError as e:
         print(f"axis: {e}", file=sys.stderr)
         return 1

@@ -4,7 +4,8 @@
 import io
 import tkinter as tk
 
-from PIL import Image, ImageDraw, ImageFont
+from kerf import imagefont
+from PIL import Image, ImageDraw
 
 OVERSAMPLE = 4
 INK, BAD, GOOD, BLUE, QUIET, GOLD = "#2b2f36", "#c62828", "#1f8a3b", "#1f5fa8", "#8a919c", "#c98a00"
@@ -42,10 +43,7 @@ class Pen:
         self.draw.rectangle(self.points(x0, y0, x1, y1), fill=colour or self.ink)
 
     def text(self, text, colour=None, size=15):
-        try:
-            font = ImageFont.truetype("DejaVuSans-Bold.ttf", round(size * self.scale))
-        except OSError:
-            font = ImageFont.load_default()
+        font = imagefont.load("DejaVuSans-Bold.ttf", size * self.scale)
         self.draw.text(self.points(12, 12), text, fill=colour or self.ink, font=font, anchor="mm")
 
     def png(self):

@@ -2,27 +2,21 @@
 """Letters for OpenGL: one texture with the glyphs of a font, and quads of texts."""
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
+
+from . import imagefont
 
 FIRST, LAST = 32, 126
 MORE = "⌂⚠°±…µ·×ÄÖÜäöüßéèêçàñå"       # beside ASCII
 FILE = "DejaVuSansMono.ttf"
 
 
-def load_font(pixels):
-    """A fixed-width font of this height; Pillow's own when DejaVu is not installed."""
-    try:
-        return ImageFont.truetype(FILE, max(6, pixels))
-    except OSError:
-        return ImageFont.load_default()
-
-
 class Glyphs:
     """The texture's data and the places in it. Unknown letters become '?'."""
 
     def __init__(self, pixels):
-        font = load_font(pixels)
-        letters = [chr(c) for c in range(FIRST, LAST + 1)] + list(MORE)
+        font = imagefont.load(FILE, pixels)
+        letters = [chr(c) for c in range(FIRST, LAST + 1)] + [c for c in MORE if imagefont.drawable(font, c) == c]
         boxes = [font.getbbox(c) for c in letters]
         self.advance = max(1, round(font.getlength("0"))) if hasattr(font, "getlength") else max(1, font.getsize("0")[0])
         self.width = max(self.advance, *(b[2] for b in boxes)) + 2

@@ -3,7 +3,9 @@
 
 import math
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
+
+from . import imagefont
 
 SIZE = (1600, 1000)        # pixels of the result
 OVERSAMPLE = 2             # drawn larger and scaled down: smooth lines
@@ -31,10 +33,7 @@ def nice_step(span):
 
 
 def font(size):
-    try:
-        return ImageFont.truetype("DejaVuSans.ttf", size)
-    except OSError:
-        return ImageFont.load_default()
+    return imagefont.load("DejaVuSans.ttf", size)
 
 
 class View:

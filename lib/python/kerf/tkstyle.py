@@ -177,12 +177,21 @@ def centre(window, width, height, minimum=None):
         window.minsize(min(minimum[0], width), min(minimum[1], height))
 
 
+def need_letters(root):
+    """Raises TclError, which says what to do, where Tk finds no font at all."""
+    try:
+        tk.Label(root, text="x").destroy()
+    except tk.TclError as error:
+        raise tk.TclError("no font is installed: install one, for example the package fonts-dejavu-core") from error
+
+
 def open_display(program, class_name):
     """The root window. Without a display: says so on standard error, exit status 1."""
     if not os.environ.get("DISPLAY"):
         sys.exit(f"{program}: no display (DISPLAY is not set)")
     try:
         root = tk.Tk(className=class_name)
+        need_letters(root)
     except tk.TclError as error:
         sys.exit(f"{program}: {error}")
 

@@ -3,7 +3,8 @@
 
 import hal
 from OpenGL import GL
-from PIL import Image, ImageDraw, ImageFont
+from kerf import imagefont
+from PIL import Image, ImageDraw
 
 CELL = 9, 15            # of a letter
 FONT, SIZE = "DejaVuSansMono.ttf", 14
@@ -72,13 +73,10 @@ class Hud:
         wide, tall = CELL
         image = Image.new("RGBA", (wide * (max(map(len, texts)) + 2), tall * len(texts) + 8), colors[0])
         pen = ImageDraw.Draw(image)
-        try:
-            font = ImageFont.truetype(FONT, SIZE)
-        except OSError:
-            font = ImageFont.load_default()
+        font = imagefont.load(FONT, SIZE)
         for row, text in enumerate(texts):
             for column, letter in enumerate(text):
-                pen.text((wide * (column + 1), 4 + tall * row), letter, font=font, fill=colors[1] + (255,))
+                pen.text((wide * (column + 1), 4 + tall * row), imagefont.drawable(font, letter), font=font, fill=colors[1] + (255,))
         return image
 
     def draw(self, height):
