@@ -16,7 +16,7 @@ from .tooltable import COLUMNS, COMMENT, Row, Table, chosen_columns, is_number
 
 POLL_MS = 2000
 LOCK = "/tmp/linuxcnc.lock"     # while a machine runs
-CHARS = {"T": 5, "P": 5, "D": 9, "I": 9, "J": 9, "Q": 6, COMMENT: 18}
+CHARS = {"T": 5, "P": 5, "D": 9, "I": 10, "J": 10, "Q": 6, COMMENT: 18}
 AXIS_CHARS = 8
 TITLES = {"T": _("TOOL"), "P": _("POC"), "D": _("DIAM"), "I": _("FRONT"), "J": _("BACK"), "Q": _("ORIEN"), COMMENT: _("COMMENT")}
 USAGE = f"""Usage: tooledit [COLUMN...] FILE
