@@ -17,7 +17,8 @@ class Row:
     """Canvas items and widgets of one item."""
 
     def __init__(self, item):
-        self.item, self.widgets, self.shown, self.access = item, [], None, None
+        self.item, self.widgets, self.shown = item, [], None
+        self.laid = None            # the type and access that its buttons are for
         self.value_id = self.oval_id = self.name_id = None
 
 
@@ -94,14 +95,14 @@ class WatchView(ttk.Frame):
         buttons = left + max(px(self.column), self.widest + px(8))
         for place, row in enumerate(self.rows):
             row.item.refresh()
-            row.access = row.item.access
+            row.laid = row.item.type, row.item.access
             y = place * height + height // 2
             size = px(8)
             row.oval_id = canvas.create_oval(left, y - size, left + 2 * size, y + size, state="hidden", outline=self.style.colours["line"])
             row.value_id = canvas.create_text(left, y, anchor="w", font="TkDefaultFont", fill=self.style.colours["ink"])
             row.name_id = canvas.create_text(buttons, y, anchor="w", text=row.item.name, font="TkDefaultFont",
                                              fill=self.style.colours[COLOURS[row.item.kind]])
-            if row.access != "read":
+            if row.item.access != "read":
                 self.make_buttons(row, buttons, y)
         self.update_idletasks()
         room = max([w.winfo_reqwidth() for row in self.rows for w in row.widgets], default=0)
@@ -119,7 +120,7 @@ class WatchView(ttk.Frame):
         ttk.Style(self).configure("Field.TFrame", background=self.style.colours["field"])
         for text, action in actions:
             button = ttk.Button(frame, text=text, style="Small.TButton", command=action, takefocus=False,
-                                state="normal" if row.access == "write" else "disabled")
+                                state="normal" if row.item.access == "write" else "disabled")
             button.pack(side="left", padx=1)
             button.bind("<Button-3>", lambda event, r=row: self.popup(event, r))
             self._wheel(button)
@@ -138,7 +139,7 @@ class WatchView(ttk.Frame):
     def update_values(self):
         """What has changed in HAL; called at the update interval."""
         self.ticks += 1
-        if self.ticks % CONNECTION_TICKS == 0 and any(bool(row.item.refresh()) and row.item.access != row.access for row in self.rows):
+        if self.ticks % CONNECTION_TICKS == 0 and any(bool(row.item.refresh()) and (row.item.type, row.item.access) != row.laid for row in self.rows):
             self.layout()
             return
         wide = self.widest
