@@ -1,3 +1,5 @@
+import subprocess
+
 from kerf import tkstyle
 from kerf.tktools.halmeter import Window, parse
 from tk_hand import Hand
@@ -23,6 +25,12 @@ print("wide enough:", window.value.winfo_reqwidth() <= root.winfo_width())
 window.probe("sig", "z-pipe")
 window.show()
 print("a port without a buffer, silently:", window.value.cget("text").strip())
+window.probe("sig", "x-s32")
+for words in (["delsig", "x-s32"], ["newsig", "x-s32", "bit"]):
+    subprocess.run(["halcmd", *words], check=True)
+    for _ in range(10):
+        window.show()
+    print(words[0], window.value.cget("text"))
 hand.click(chooser.find)
 hand.type("u64")
 print(chooser.lists["sig"].get(0, "end"))

@@ -123,7 +123,8 @@ class Window:
 
     def show(self):
         """The window grows with what it shows, and stays as wide."""
-        self.value.configure(text=text_of(self.item.type, self.item.value()) if self.item else NOTHING)
+        there = self.item and self.item.refresh()           # it may go and come back with another type
+        self.value.configure(text=text_of(self.item.type, self.item.value()) if there else NOTHING)
         needed = max(self.value.winfo_reqwidth(), self.label.winfo_reqwidth() if not self.small else 0) + self.style.px(8)
         if 1 < self.root.winfo_width() < needed <= self.root.winfo_screenwidth():
             self.root.geometry(f"{needed}x{self.root.winfo_height()}")
