@@ -542,6 +542,8 @@ class Session:
         begun = time.monotonic()
 
         def ready():
+            if not any(name.startswith("rtapi_app") and lives(pid) for pid, name in self.watched.items()):
+                raise Failure("rtapi_app, the realtime host, died while the machine was started: the kernel's log (dmesg) may name the module")
             if not any(name == self.task[:15] and lives(pid) for pid, name in self.watched.items()):
                 raise Failure(f"TASK program {self.task} ended while the machine was started: see its messages above")
             try:

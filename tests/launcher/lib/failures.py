@@ -129,6 +129,8 @@ case("a mistake two sources deep", (HAL, "loadrt and2\nsource one.hal\n"), file=
 case("a HAL file that is no text", (HAL, "\0\1\n"), file="spindle.hal")
 case("a mistake two Tcl files deep", (r"HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = more.tcl"),
      prepare=lambda: (put("more.tcl", "proc deep {} {\n  source inner.tcl\n}\ndeep\n")(), put("inner.tcl", "\nsetp nothing.at.all 5\n")()))
+case("a host that dies while the machine is started", (r"(HALFILE = spindle.hal)", r"\1\nHALCMD = loadusr -w ./kill-host"),
+     prepare=put("kill-host", "#!/bin/sh\nfor p in $(pgrep -x rtapi_app); do grep -qszx LINUXCNC_SESSION=$LINUXCNC_SESSION /proc/$p/environ && kill -9 $p; done; true\n", 0o755))
 case("a HAL file for shutdown with a mistake", (r"\[HAL\]", "[HAL]\nSHUTDOWN = down.hal"), prepare=put("down.hal", "\nnet a nothing\n"))
 
 groups, chosen = sys.argv[1].split(","), sys.argv[2:]
@@ -155,7 +157,7 @@ for group, title, file, edits, prepare, other, before in CASES:
     print(f"# {title}: status {status}")
     for line in out.splitlines():
         if not USUAL.match(line):
-            print("    " + re.sub(r"port \d{2,}", "port N", line.replace(os.getcwd() + "/", "").replace(str(TOP) + "/", "").replace(SUFFIX, "")))
+            print("    " + re.sub(r"(port|process) \d{2,}", r"\1 N", line.replace(os.getcwd() + "/", "").replace(str(TOP) + "/", "").replace(SUFFIX, "")))
     for server in busy_ports:
         if isinstance(server, socket.socket):
             server.close()

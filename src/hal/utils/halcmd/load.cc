@@ -228,6 +228,13 @@ int wait_ready(Session &s, pid_t pid, const std::string &program, const std::str
     return -1;
 }
 
+std::string join(const Args &words, size_t first)
+{
+    std::string text;
+    for (size_t i = first; i < words.size(); i++) text += (i > first ? " " : "") + words[i];
+    return text;
+}
+
 /// rtapi_app's exit status for a request: over the socket, or by executing the program.
 /// The component is given back meanwhile and taken again before the request is made.
 int ask_rtapi_app(Session &s, const Args &request)
@@ -240,7 +247,9 @@ int ask_rtapi_app(Session &s, const Args &request)
     case 0:
         if (!text.empty()) s.output(text + "\n");
         return result & 0xff;
-    case -EPIPE: return 255;
+    case -EPIPE:
+        s.error(strf("the realtime host (rtapi_app) died of '%s': the kernel's log (dmesg) may name the module", join(request, 0).c_str()));
+        return 255;
     }
     Args words = {rtapi_app_path()};
     words.insert(words.end(), request.begin(), request.end());
@@ -257,13 +266,6 @@ bool loading_locked(Session &s)
     if (!(hal_get_lock() & HAL_LOCK_LOAD)) return false;
     s.error("HAL is locked, loading of programs is not permitted");
     return true;
-}
-
-std::string join(const Args &words, size_t first)
-{
-    std::string text;
-    for (size_t i = first; i < words.size(); i++) text += (i > first ? " " : "") + words[i];
-    return text;
 }
 
 /// Keeps the arguments of a module for `save comp`.
