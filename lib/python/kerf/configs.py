@@ -117,7 +117,7 @@ def copy(path, tree, roots):
     """Copies the folder of a configuration below the user's configurations; returns the new path.
 
     Links become files, the programs' prefix becomes the user's, sub-folders with
-    configurations of their own stay behind. Raises OSError.
+    configurations of their own stay behind. Raises OSError, and leaves no part of a copy then.
     """
     source = path.parent
     name = ".".join(source.relative_to(sample_root(path, roots)).parts) or source.name
@@ -126,15 +126,19 @@ def copy(path, tree, roots):
     while target.exists():
         number += 1
         target = user_configs() / f"{name}-{number}"
-    copy_folder(source, target)
-    hallib = target / "hallib"
-    if not hallib.exists():
-        hallib.symlink_to(tree.hallib)
-    for ini in target.glob("*.ini"):
-        text = ini.read_text(errors="surrogateescape")
-        prefix = f"PROGRAM_PREFIX = {Path.home() / 'linuxcnc/nc_files'}"
-        ini.write_text(re.sub(r"(?m)^[ \t]*PROGRAM_PREFIX[ \t]*=.*$", lambda match: prefix, text), errors="surrogateescape")
-    make_nc_files(tree)
+    try:
+        copy_folder(source, target)
+        hallib = target / "hallib"
+        if not hallib.exists():
+            hallib.symlink_to(tree.hallib)
+        for ini in target.glob("*.ini"):
+            text = ini.read_text(errors="surrogateescape")
+            prefix = f"PROGRAM_PREFIX = {Path.home() / 'linuxcnc/nc_files'}"
+            ini.write_text(re.sub(r"(?m)^[ \t]*PROGRAM_PREFIX[ \t]*=.*$", lambda match: prefix, text), errors="surrogateescape")
+        make_nc_files(tree)
+    except OSError:
+        shutil.rmtree(target, ignore_errors=True)
+        raise
     return target / path.name
 
 

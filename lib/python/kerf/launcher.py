@@ -778,7 +778,7 @@ def find_ini(options, tree):
                               {"PYTHONPATH": str(tree.python)}, stdout=subprocess.PIPE, text=True)
         path = done.stdout.strip()
         if not path:
-            sys.exit(0)
+            sys.exit(status_of(done.returncode))    # 0: cancelled
         if path.endswith(".demo"):
             subprocess.Popen([path], env=tree.environment(), cwd=os.path.dirname(path))
             sys.exit(0)

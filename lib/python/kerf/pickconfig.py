@@ -140,10 +140,13 @@ class Picker:
                 messagebox.showinfo(_("Copied"), _("The configuration is now in\n%s") % path.parent, parent=self.root)
             if self.shortcut.get():
                 configs.make_shortcut(path, self.tree)
-            configs.remember(path)
         except OSError as e:
             messagebox.showerror(_("Not possible"), str(e), parent=self.root)
             return "break"
+        try:
+            configs.remember(path)
+        except OSError as e:        # the machine can be started all the same
+            print(f"pickconfig: the choice is not remembered: {e}", file=sys.stderr)
         self.chosen = path
         self.root.destroy()
         return "break"      # the list's own binding would look for a list that is gone

@@ -37,7 +37,15 @@ print("copy of a copy:", configs.needs_copy(new, tree, {}))
 (Path.home() / ".linuxcncrc").write_text("[PICKCONFIG]\nLAST_CONFIG = old\n[OTHER]\nX = 1\n")
 configs.remember(new)
 print((Path.home() / ".linuxcncrc").read_text().replace(str(Path.home()), "HOME"), end="")
+(Path.home() / "linuxcnc/nc_files").rename("away"); (Path.home() / "linuxcnc/nc_files").touch()
+before = sorted(configs.user_configs().iterdir())
+try:
+    configs.copy(axis, tree, roots)
+except OSError as e:
+    print("not copied:", e.strerror, sorted(configs.user_configs().iterdir()) == before)
+(Path.home() / "linuxcnc/nc_files").unlink(); Path("away").rename(Path.home() / "linuxcnc/nc_files")
 END
+DISPLAY=:7777 linuxcnc 2>&1; echo "no display: $?"
 echo "# programs"
 linuxcncmkdesktop /x/mill.ini "My Mill" "at the window" | sed "s|Exec=.*/linuxcnc |Exec=BIN/linuxcnc |"
 linuxcncmkdesktop /x/a.demo Demo; linuxcncmkdesktop /x/a.txt Text; linuxcncmkdesktop 2>&1; echo "=> $?"
@@ -74,4 +82,6 @@ def folder(p):
     p.accept()
     p.root.destroy()
 print("folder", run(folder))
+(Path.home() / ".linuxcncrc").unlink(); (Path.home() / ".linuxcncrc").mkdir()
+print("not remembered, but started", run(key("<Return>"), answer=False) is not None)
 END
