@@ -77,7 +77,11 @@ class Composer:
                                    self.foam_w if plane == 1 else self.foam_z if plane == 0 else 0.0)
 
     def shown_box(self):
-        """What a fitting view shows: the program, or the machine's limits when there is none."""
+        """What a fitting view shows: the program as it is drawn (rotary axes may turn it anywhere), or the machine's limits when
+        there is none."""
+        drawn = [d.extents for d in self.drawings if d.extents]
+        if drawn:
+            return tuple(map(min, *(e[0] for e in drawn), drawn[0][0])), tuple(map(max, *(e[1] for e in drawn), drawn[0][1]))
         return self.extents() or self.limits() or ((0, 0, 0), (1, 1, 1))
 
     def extents(self, tool=False, unrotated=False):
