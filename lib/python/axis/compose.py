@@ -11,6 +11,7 @@ from kerf.glpath import Item, Scene
 from . import shapes
 from .camera import Camera
 from .dro import SYSTEMS
+from .program import beyond
 
 COLOURS = {     # names of the X resources *Togl.<name>
     "back": "#000000", "straight_feed": "#ffffff", "arc_feed": "#ffffff", "traverse": "#4c8080", "selected": "#00ffff",
@@ -84,12 +85,12 @@ class Composer:
             return tuple(map(min, *(e[0] for e in drawn), drawn[0][0])), tuple(map(max, *(e[1] for e in drawn), drawn[0][1]))
         return self.extents() or self.limits() or ((0, 0, 0), (1, 1, 1))
 
-    def extents(self, tool=False, unrotated=False):
-        """Least and greatest of the program, or None."""
+    def extents(self, unrotated=False):
+        """Least and greatest of the program (without tool lengths), or None."""
         p = self.program
         if p is None or p.n_moves == 0:
             return None
-        low, high = (p.extents_tool_zero_rxy if tool else p.extents_zero_rxy) if unrotated else (p.extents_tool if tool else p.extents)
+        low, high = p.extents_zero_rxy if unrotated else p.extents
         if not all(abs(v) < NO_LIMIT for v in (*low, *high)):
             return None
         if self.s.foam:
@@ -187,7 +188,6 @@ class Composer:
         low, high = extents
         if not shown:
             self.scene.after.append(self.item(shapes.box(*self.extents()), "box"))
-        limits, with_tool = self.limits(), self.extents()
         zero = self.offset() if relative else (0.0, 0.0, 0.0)
         about = [self.unit * v for v in self.stat.g5x_offset[:2]] if turn else (0.0, 0.0)
         labels = []
@@ -199,9 +199,7 @@ class Composer:
             if abs(out[beside]) > 0.999:
                 beside = 2 if axis != 2 else 1
             points, kinds, texts = shapes.dimension(low, high, axis, beside, o.metric, zero[axis])
-            over = (False, False)
-            if limits is not None and "XYZ"[axis] in self.s.axes:
-                over = (with_tool[0][axis] < limits[0][axis] - 1e-6, with_tool[1][axis] > limits[1][axis] + 1e-6)
+            over = beyond(self.program, self.s, self.stat, axis) if self.stat is not None else (False, False)
             flags = (*over, any(over))
             self.scene.after.append(self.item((shapes.turned(points, turn, about), kinds), "label_limit" if any(over) else "label_ok"))
             for (place, text), bad in zip(texts, flags):

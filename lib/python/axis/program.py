@@ -154,20 +154,25 @@ def parameter(path, number):
     return next((float(row[1]) for row in rows if len(row) == 2 and row[0] == str(number)), 0.0)
 
 
+def beyond(program, settings, stat, axis):
+    """Whether a program leaves the soft limits of X, Y or Z (axis 0 to 2): (below the least, above the greatest)."""
+    if "XYZ"[axis] not in settings.axes:
+        return False, False
+    scale, limits = MM_PER_INCH * settings.units_per_mm, stat.axis[axis]
+    low, high = program.extents_tool
+    return low[axis] * scale < limits["min_position_limit"] - 1e-6, high[axis] * scale > limits["max_position_limit"] + 1e-6
+
+
 def limit_warnings(program, settings, stat, translate=str):
     """Warnings where the program leaves the soft limits of X, Y or Z."""
     if program is None or program.n_moves == 0:
         return []
-    scale = MM_PER_INCH * settings.units_per_mm
-    low, high = program.extents_tool
     warnings = []
     for i, letter in enumerate("XYZ"):
-        if letter not in settings.axes:
-            continue
-        axis = stat.axis[i]
-        if low[i] * scale < axis["min_position_limit"] - 1e-6:
+        below, above = beyond(program, settings, stat, i)
+        if below:
             warnings.append(translate("Program exceeds machine minimum on axis %s") % letter)
-        if high[i] * scale > axis["max_position_limit"] + 1e-6:
+        if above:
             warnings.append(translate("Program exceeds machine maximum on axis %s") % letter)
     if program.aborted:
         warnings.append(translate("G-code preview was truncated before completion; machine limits could not be fully checked."))

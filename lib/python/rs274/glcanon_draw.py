@@ -42,8 +42,8 @@ class Recorded:
     def __init__(self, canon):
         record = self.record = canon.program_geometry
         self.n_moves, self.foam_z, self.foam_w = record.n_moves, canon.foam_z, canon.foam_w
-        self.extents, self.extents_tool = record.extents, record.extents_notool
-        self.extents_zero_rxy, self.extents_tool_zero_rxy = record.extents_zero_rxy, record.extents_notool_zero_rxy
+        self.extents, self.extents_tool = record.extents, record.extents_notool         # "notool": with the tool offset
+        self.extents_zero_rxy = record.extents_zero_rxy
         m1xx = canon.colors.get("m1xx")
         self.marks = [(line, x, y, z, plane, m1xx is not None and colour == m1xx) for line, colour, x, y, z, plane in canon.dwells]
 
