@@ -8,4 +8,17 @@ ini_edit="s|^EDITOR.*|EDITOR = /nowhere/editor|; s|^\[AXIS_Y\]|&\nTOUCHOFF_ACTUA
 screen_test mill rules.py "$PWD/part.ngc"
 cat machine/transcript || cat screen.log screen.err >&2
 grep -c Traceback screen.err
-rm -rf machine home part.ngc screen.log screen.err
+cat > extra.ini <<INI
+[JOINT_4]
+TYPE = LINEAR
+MIN_LIMIT = -100
+MAX_LIMIT = 100
+MAX_VELOCITY = 50
+MAX_ACCELERATION = 500
+HOME_SEQUENCE = 3
+INI
+ini_edit="s/^JOINTS = 4/JOINTS = 5/; s/^EMCMOT = motmod.*/EMCMOT = motmod num_extrajoints=1/; \$r $PWD/extra.ini"
+screen_test gantry extra.py
+cat machine/transcript || cat screen.log screen.err >&2
+grep -c Traceback screen.err
+rm -rf machine home part.ngc extra.ini screen.log screen.err
