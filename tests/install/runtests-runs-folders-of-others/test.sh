@@ -24,6 +24,9 @@ run b/good -n; ls b/good
 echo "== -v shows both streams, and keeps them for the judge"
 make_test v/both 'echo out; echo err >&2; setsid sleep 7721 & sleep 0.1; kill $!'; script v/both/checkresult 'grep -q out $1 && grep -q err ${1%/*}/stderr'
 run -v v/both | grep -v '^+' | sort
+echo "== output that comes late, of a process without this environment"
+make_test y/late 'env -i sh -c "sleep 1; echo late" & echo x' "$(printf 'x\nlate')"
+run y
 echo "== what -c removes below a folder"
 mkdir -p c/deep/er; touch c/deep/er/a.var c/deep/result c/stderr c/kept
 run -c c; find c -type f
