@@ -24,6 +24,27 @@ def web(colour):
     return "#%02x%02x%02x" % rgba(colour)[:3]
 
 
+def paint(raster, items, matrix):
+    """Lines of a scene; faces are left out."""
+    for item in items:
+        points = np.ascontiguousarray(item.vertices, np.float32)
+        if len(points) > 1 and not item.triangles:
+            raster.draw(points, np.ascontiguousarray(item.kinds, np.uint8), [NOTHING, rgba(item.colour)], matrix, 0, len(points),
+                        max(1, round(item.width)))
+
+
+def paint_still(raster, scene, matrix):
+    """The still layer without its labels."""
+    raster.clear(rgba(scene.back))
+    paint(raster, scene.before, matrix)
+    for drawing, palette in zip(scene.drawings, scene.palettes):
+        raster.draw_drawing(drawing, [rgba(c) for c in palette[:3]] + [NOTHING], matrix)
+    for number, first, last in scene.selected_spans:
+        drawing = scene.drawings[number]
+        raster.draw(drawing.vertices, drawing.kinds, [rgba(scene.selected)] * 3 + [NOTHING], matrix, first, last, 3)
+    paint(raster, scene.after, matrix)
+
+
 class DrawnPicture(tk.Canvas):
     """Shows scenes (kerf.glpath.Scene)."""
     kind = "drawn"
@@ -41,27 +62,11 @@ class DrawnPicture(tk.Canvas):
             self.fonts[size] = tkfont.Font(self, family="DejaVu Sans Mono", size=-size)
         return self.fonts[size]
 
-    def lines(self, raster, item, matrix):
-        points = np.ascontiguousarray(item.vertices, np.float32)
-        if len(points) > 1 and not item.triangles:
-            raster.draw(points, np.ascontiguousarray(item.kinds, np.uint8), [NOTHING, rgba(item.colour)], matrix, 0, len(points),
-                        max(1, round(item.width)))
-
     def draw_still(self, scene, matrix, width, height, label_size):
         if self.layer is None or (self.layer.width, self.layer.height) != (width, height):
             self.layer, self.frame = kerf_raster.Raster(width, height), kerf_raster.Raster(width, height)
         self.plotted = 0
-        r = self.layer
-        r.clear(rgba(scene.back))
-        for item in scene.before:
-            self.lines(r, item, matrix)
-        for drawing, palette in zip(scene.drawings, scene.palettes):
-            r.draw_drawing(drawing, [rgba(c) for c in palette[:3]] + [NOTHING], matrix)
-        for number, first, last in scene.selected_spans:
-            drawing = scene.drawings[number]
-            r.draw(drawing.vertices, drawing.kinds, [rgba(scene.selected)] * 3 + [NOTHING], matrix, first, last, 3)
-        for item in scene.after:
-            self.lines(r, item, matrix)
+        paint_still(self.layer, scene, matrix)
         self.delete("label")
         for x, y, text, colour, box in scene.labels:
             made = self.create_text(x, y, text=text, fill=web(colour), font=self.font(label_size), anchor="s", tags="label")
@@ -77,8 +82,7 @@ class DrawnPicture(tk.Canvas):
             r.assign(self.layer)
         elif not self.draw_plot(scene):
             return False
-        for item in scene.live:
-            self.lines(r, item, matrix)
+        paint(r, scene.live, matrix)
         self.image = tk.PhotoImage(master=self, data=r.ppm(), format="PPM")
         self.itemconfigure(self.item, image=self.image)
         self.delete("text")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # Draws each scene and compares it with kept/NAME.png.
 import copy
+import io
 import os
 import sys
 import tempfile
@@ -8,10 +9,11 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import gcode
+import kerf_raster
 import linuxcnc
 import numpy as np
 from PIL import Image, ImageFilter
-from axis import settings
+from axis import drawn, settings
 from axis.compose import Composer
 from kerf import gl
 from kerf.glpath import Renderer
@@ -93,7 +95,24 @@ def draw(gl_library, name):
     renderer.resize(*SIZE)
     renderer.draw_still(composer.scene, matrix, TEXT_PX, exact=True)
     renderer.draw_frame(composer.scene, matrix)
-    return Image.fromarray(renderer.pixels())
+    shown = Image.fromarray(renderer.pixels())
+    in_memory(name, composer.scene, matrix, renderer)
+    return shown
+
+
+def in_memory(name, scene, matrix, renderer):
+    """The lines of the scene as they are drawn without OpenGL, beside the same ones with it."""
+    scene.labels, scene.texts, scene.panels, scene.live = [], [], [], [i for i in scene.live if not i.triangles]
+    renderer.draw_still(scene, matrix, TEXT_PX, exact=True)
+    renderer.draw_frame(scene, matrix)
+    raster = kerf_raster.Raster(*SIZE)
+    drawn.paint_still(raster, scene, matrix)
+    drawn.paint(raster, scene.live, matrix)
+    picture = Image.open(io.BytesIO(bytes(raster.ppm())))
+    share = difference(picture, Image.fromarray(renderer.pixels()))
+    if share >= 0.01:
+        print(f"{name}: {100 * share:.2f} % of the pixels differ between OpenGL and the picture drawn in memory")
+        picture.save("differs-drawn-" + name.replace(" ", "-") + ".png")
 
 
 def overlaps(name, composer):
