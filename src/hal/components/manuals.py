@@ -49,7 +49,7 @@ GROUPS = {
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
-    "Hardware": "hal_parport",
+    "Hardware": "hal_parport hal_speaker",
     "Sensors": "max31855 thermistor",
     "Devices on Modbus and USB": "mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd pmx485 shuttle xhc-hb04",
 }

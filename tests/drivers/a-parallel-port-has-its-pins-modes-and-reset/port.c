@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
- * hal_parport on registers that are HAL pins: sim.ADDRESS.out shows what was written there and .writes how
+ * hal_parport, or another driver of port registers, on registers that are HAL pins: sim.ADDRESS.out shows what was written there and .writes how
  * often, .in is what reading gives. */
 #define RTAPI_IO_H
+#ifndef DRIVER
+#define DRIVER "hal_parport"
+#endif
 static unsigned char rtapi_inb(unsigned short address);
 static void rtapi_outb(unsigned char value, unsigned short address);
 static unsigned rtapi_inl(unsigned short address) { return rtapi_inb(address); }
@@ -14,7 +17,7 @@ static int sim_init(const char *name);
 #include SOURCE
 #undef hal_init
 
-static const unsigned short addresses[] = {0x378, 0x379, 0x37a, 0x77a, 0x278, 0x279, 0x27a, 0x67a};
+static const unsigned short addresses[] = {0x378, 0x379, 0x37a, 0x77a, 0x278, 0x279, 0x27a, 0x67a, 0x61};
 #define REGISTERS (int)(sizeof addresses / sizeof addresses[0])
 
 static struct sim {
@@ -55,7 +58,7 @@ void sim_release(rtapi_parport_t *port)
 static int sim_init(const char *name)
 {
     int i, id = hal_init("kerf_test_port");
-    if(id < 0 || strcmp(name, "hal_parport")) return -EINVAL;
+    if(id < 0 || strcmp(name, DRIVER)) return -EINVAL;
     sim = hal_malloc(sizeof *sim * REGISTERS);
     for(i = 0; i < REGISTERS; i++) {
         hal_pin_new_ui32(id, HAL_IN, &sim[i].in, 0, "sim.%x.in", addresses[i]);
