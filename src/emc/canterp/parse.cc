@@ -118,11 +118,11 @@ class Reader
         p = at + 1;
         if (text.compare(p, 5, ".....") == 0) {
             p += 5;
+            line->field = p; // it stands for a line without a number
         } else {
             while (p < text.size() && is_digit(text[p])) ++p;
             if (p == at + 1 && p < text.size() && !is_blank(text[p])) return; // a name that begins with N
         }
-        if (text[at + 1] == '.') line->field = p; // it stands for a line without a number
         at = p;
         blanks();
         if (text.compare(at, 9, "saicanon ") == 0) at += 9;

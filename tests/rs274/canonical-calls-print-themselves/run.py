@@ -54,6 +54,13 @@ with tempfile.TemporaryDirectory() as scratch:
         calls.write_text("\n" + line + "\n")
         done = rs274("-p", "canterp.so", "calls")
         print(done.returncode, "\n".join(l[:100] for l in done.stderr.splitlines() if not l.startswith(("executing", "emcTask"))))
+    # no cut-off or overgrown line does more than end with a message
+    whole = "   12 N0010  SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, 0.050000) ; x\nN\n N..... \n COMMENT(\nCANON_ERROR)(\n" + "9" * 5000
+    ends = set()
+    for line in [whole[:n] for n in range(66)] + whole.split("\n") + ["MESSAGE(\"" + "x" * 3000 + "\")"]:
+        calls.write_text(line)
+        ends.add(rs274("-p", "canterp.so", "calls").returncode)
+    print("ends:", sorted(ends))
     missing = rs274("-p", "nothing.so", "calls").stderr
     print("a missing library is named:", "could not open interpreter" in missing and "nothing.so" in missing)
 
