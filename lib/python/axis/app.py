@@ -64,6 +64,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.loaded_file = self.shown_file = None
         self.is_filtered = self.loading = self.cancel_loading = False
         self.disk_state, self.changed_on_disk = None, False
+        self.limit_path = self.limit_conditions = None   # what the limits are checked against, under which conditions it was read
+        self.limits_final = False    # another reading would find out no more
         self.joints_shown = None
         self.last_increment = None
         self.seen_maxvel = None

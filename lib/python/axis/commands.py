@@ -174,9 +174,8 @@ def make(app):
             s.poll()
             if s.task_state != linuxcnc.STATE_ON:
                 return
-            if s.task_mode != linuxcnc.MODE_AUTO or s.interp_state != linuxcnc.INTERP_IDLE:
-                if app.limit_warnings() and s.interp_state == linuxcnc.INTERP_IDLE and not app.accept_limits():
-                    return
+            if s.interp_state == linuxcnc.INTERP_IDLE and (app.loading or not app.accept_limits() or not app.manual_ok()):
+                return
             app.ensure_mode(linuxcnc.MODE_AUTO)
             c.auto(linuxcnc.AUTO_STEP)
 

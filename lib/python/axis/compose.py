@@ -5,7 +5,6 @@ No widgets here: the same scenes are drawn on the screen and, for tests and pict
 Inches.
 """
 
-import kerf_raster
 from kerf.glpath import Item, Scene
 
 from . import shapes
@@ -52,30 +51,25 @@ class Composer:
 
     # -- contents --------------------------------------------------------------------------
 
-    def set_program(self, program, boxed=False, run=lambda function, *args: function(*args)):
-        """program: gcode.Program, whose path is freed; boxed: only its bounding box is drawn; run(function, *args) does what takes long."""
-        self.program, self.boxed, self.drawings = program, boxed, []
+    def set_program(self, program, drawings, boxed=False):
+        """program: reading.Program; drawings: kerf_raster.Drawing of each place; boxed: only its bounding box is drawn."""
+        self.program, self.boxed, self.drawings = program, boxed, drawings
         if program is not None:
             self.foam_z = program.foam_z if program.foam_z is not None else self.s.foam_z
             self.foam_w = program.foam_w if program.foam_w is not None else self.s.foam_w
-            if not boxed:
-                self.drawings = [run(self.drawing, program, plane) for plane in ((0, 1) if self.s.foam else (-1,))]
-            program.release_path()
             self.place_planes()
         self.camera.fit(*self.shown_box())
+
+    def places(self):
+        """How the nine axes become points of each drawing (reading.drawing)."""
+        offset = [0.0] * 9 if self.stat is None else self.offset_nine()
+        planes = ((0, self.s.foam_z), (1, self.s.foam_w)) if self.s.foam else ((-1, 0.0),)
+        return [(plane, z, self.s.geometry, offset, self.s.coordinates) for plane, z in planes]
 
     def place_planes(self):
         """The live plot of a foam cutter has the heights of the planes."""
         if self.s.foam and self.logger:
             self.logger.set_depth(self.foam_z / self.unit, self.foam_w / self.unit)
-
-    def drawing(self, program, plane):
-        offset = [0.0] * 9
-        if self.stat is not None:
-            offset = [(a + b) * (1.0 if 3 <= i <= 5 else self.unit)
-                      for i, (a, b) in enumerate(zip(self.stat.g5x_offset, self.stat.g92_offset))]
-        return kerf_raster.Drawing(program.points, program.kinds, program.lines, self.s.geometry, offset, self.s.coordinates, plane,
-                                   self.foam_w if plane == 1 else self.foam_z if plane == 0 else 0.0)
 
     def shown_box(self):
         """What a fitting view shows: the program as it is drawn (rotary axes may turn it anywhere), or the machine's limits when
@@ -144,11 +138,9 @@ class Composer:
         if shown and o.highlight_line > 0:
             c.selected_spans = [(n, first, last) for n, d in enumerate(self.drawings) for first, last in d.spans(o.highlight_line)]
         if self.program is not None and shown:
-            marks = self.program.marks
-            for user_m, name in ((False, "dwell"), (True, "m1xx")):
-                crosses = [shapes.cross(m[1:4], m[4]) for m in marks if bool(m[5]) == user_m]
-                if crosses:
-                    c.after.append(self.item(shapes.joined(crosses), name))
+            for places, name in zip(self.program.mark_places, ("dwell", "m1xx")):
+                if places:
+                    c.after.append(self.item(shapes.crosses(places), name))
         labels = self.add_extents(matrix)
         if self.stat is not None:
             labels += self.add_origin()

@@ -107,7 +107,7 @@ class Estimate:
         path, init_codes, block_delete = self.job
         words = [word for code in init_codes for word in ("-i", code)]
         try:
-            self.child = subprocess.Popen(["nice", "-n", "10", "kerf-time", "-ini", self.ini_path, "-b", str(int(block_delete)), *rates.words(), *self.waits.words(), *words, path],
+            self.child = subprocess.Popen(["nice", "-n", "10", "kerf-time", "-ini", self.ini_path, "-p", str(os.getpid()), "-b", str(int(block_delete)), *rates.words(), *self.waits.words(), *words, path],
                                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                           cwd=os.path.dirname(os.path.abspath(self.ini_path)))
         except OSError:

@@ -2,7 +2,7 @@
 """Opening and starting programs: the dialogs, the text, the progress bar."""
 
 import os
-import subprocess
+import sys
 import threading
 import time
 
@@ -67,9 +67,16 @@ class OpeningPart:
 
     def open_pipe(self, command):
         """Opens what a shell command writes to its standard output."""
+        if self.running() or self.loading:
+            return
         path = os.path.join(self.loader.folder, "pipe.ngc")
-        with open(path, "wb") as out:
-            status = subprocess.run(["sh", "-c", command], stdin=subprocess.DEVNULL, stdout=out).returncode
+        self.begin_progress()
+        try:
+            status = self.beside(self.loader.run, command, path, lambda line: print(line, end="", file=sys.stderr))
+        finally:
+            self.end_progress()
+        if self.cancel_loading:
+            return
         if status:
             self.notifications.add("error", f"{command}: {self.translate('ended with status %d') % status}")
         else:
@@ -83,15 +90,19 @@ class OpeningPart:
         if self.manual_ok():
             self.ensure_mode(linuxcnc.MODE_MANUAL)
         c.task_plan_synch()
-        c.wait_complete()
+        self.until_done()
         c.program_open(self.shown_file)
-        end = time.monotonic() + LONGEST_OPEN_S
-        while c.wait_complete(BESIDE_S) == -1 and time.monotonic() < end:
-            self.root.update()
+        self.until_done()
         kept = self.beside(self.loader.kept_text, self.shown_file)
         self.code.load(kept, self.beside(line_starts, kept))
         self.read_preview()
         self.show_title()
+
+    def until_done(self):
+        """Task did the last command, or LONGEST_OPEN_S have passed; the screen goes on."""
+        end = time.monotonic() + LONGEST_OPEN_S
+        while self.command.wait_complete(BESIDE_S) == -1 and time.monotonic() < end:
+            self.root.update()
 
     def refresh_preview(self):
         """The preview alone is read anew; the view stays."""
@@ -111,28 +122,26 @@ class OpeningPart:
         """Interprets the program for the picture, the limits and the properties. quiet: faults are known already."""
         self.stat.poll()
         self.stale_since = None
-        total = max(1, self.code.total)
         timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
-        end = time.monotonic() + (timeout if timeout > 0 else LONGEST_PREVIEW_S)
-
-        def progress(line):
-            self.progress(50 + 50 * line / total)
-            return self.cancel_loading or time.monotonic() > end
-        reading = self.loader.preview(self.shown_file, self.stat, bool(self.vars.block_delete.get()), progress)
-        path = self.beside(reading)
-        if path.aborted and not self.cancel_loading:
-            self.notifications.add("info", self.translate("G-code preview loading timed out"))
+        boxed = self.loader.too_large(self.shown_file)
+        path, drawings = self.read_program(() if boxed else self.preview.places(), timeout if timeout > 0 else LONGEST_PREVIEW_S, 50)
         if self.cancel_loading and quiet:
             return
-        boxed = self.loader.too_large(self.shown_file)
-        self.preview.set_program(path, boxed, run=self.beside)
+        self.preview.set_program(path, drawings, boxed)
         self.estimate_time()
+        name = os.path.basename(self.shown_file)
+        if path.late:
+            self.tell_of_preview(self.translate("G-code preview loading timed out"))
+        elif path.failed == "memory":
+            self.tell_of_preview(self.translate("The preview of %s needs more than %d MB of memory. Nothing is drawn; the program can be run.") % (name, self.loader.megabytes))
+        elif path.failed:
+            self.tell_of_preview(self.translate("The preview of %s ended by a fault (%s). Nothing is drawn; the program can be run.") % (name, path.failed))
         if quiet:
             return
         if boxed:
-            self.notifications.add("info", self.translate("The file is larger than GRAPHICAL_MAX_FILE_SIZE: only its bounds are drawn"))
+            self.tell_of_preview(self.translate("The file is larger than GRAPHICAL_MAX_FILE_SIZE: only its bounds are drawn"))
         elif path.thinned > 1:
-            self.notifications.add("info", self.translate("The program is very long: one piece of %d is drawn") % path.thinned)
+            self.tell_of_preview(self.translate("The program is very long: one piece of %d is drawn") % path.thinned)
         if path.notify:
             self.notifications.add("info", path.notify_message)
         if path.error and not path.aborted:
@@ -141,6 +150,38 @@ class OpeningPart:
             dialogs.ask(self.root, self.translate("G-Code error in %s") % os.path.basename(self.shown_file),
                         self.translate("Near line %d of %s:\n%s") % (line, self.shown_file, path.error), "error", 0,
                         self.translate("OK"), extra=fault["report"] if fault else None)
+
+    def tell_of_preview(self, text):
+        """Once for each loading."""
+        self.notifications.add("info", text)
+        print(f"axis: {self.shown_file}: {text}", file=sys.stderr)
+
+    def read_program(self, places, seconds, percent):
+        """(reading.Program, drawings) of the program as it would run now; the limits are checked against it. percent: of the bar, where it begins."""
+        self.stat.poll()
+        block_delete, total = bool(self.vars.block_delete.get()), max(1, self.code.total)
+        conditions = self.loader.conditions(self.shown_file, self.stat, block_delete)
+        reading = self.loader.read(self.shown_file, self.stat, block_delete, places, seconds)
+        path, drawings = self.beside(reading.result, lambda line: self.progress(percent + (100 - percent) * min(1, line / total)))
+        self.limit_path, self.limit_conditions = path, conditions
+        self.limits_final = not path.aborted or path.late and seconds >= LONGEST_PREVIEW_S or bool(path.failed) and not places
+        return path, drawings
+
+    def find_limits(self):
+        """The limits do not depend on the preview (FP-136): where it was cancelled or capped, did not come about, or was made under
+        other conditions, they get a reading of their own, without a drawing. False: the operator ended it."""
+        self.stat.poll()
+        if not self.shown_file or self.stat.interp_state != linuxcnc.INTERP_IDLE:
+            return True
+        if self.changed_on_disk or self.limits_final and self.limit_conditions == self.loader.conditions(self.shown_file, self.stat, bool(self.vars.block_delete.get())):
+            return True
+        self.write_parameters()
+        self.begin_progress()
+        try:
+            self.read_program((), LONGEST_PREVIEW_S, 0)
+        finally:
+            self.end_progress()
+        return not self.cancel_loading
 
     def estimate_time(self):
         """The run time is found out anew, from where the machine stands."""
@@ -225,7 +266,7 @@ class OpeningPart:
         self.percent = percent
 
     def beside(self, function, *args):
-        """Does what takes long in a thread, while the screen goes on (FP-136). The function touches no widget."""
+        """Waits in a thread for what takes long, while the screen goes on (FP-136). The function touches no widget."""
         outcome = {}
 
         def work():
@@ -244,7 +285,8 @@ class OpeningPart:
                 self.root.tk.call(".info.progress", "coords", 1, 0, 0, width * shown / 100, height)
             self.root.update()
             if self.cancel_loading:
-                self.loader.end_filter()
+                self.loader.end()
+            self.loader.look()
         if "error" in outcome:
             raise outcome["error"]
         return outcome["value"]
@@ -257,12 +299,14 @@ class OpeningPart:
 
     def limit_warnings(self):
         self.stat.poll()
-        return program.limit_warnings(self.preview.program, self.settings, self.stat, self.translate)
+        return program.limit_warnings(self.limit_path, self.settings, self.stat, self.translate)
 
     def accept_limits(self):
         """True when the program may run: within the limits, or the operator says so."""
         _ = self.translate
         while True:
+            if not self.find_limits():
+                return False
             warnings = self.limit_warnings()
             if not warnings:
                 return True
@@ -275,7 +319,9 @@ class OpeningPart:
             self.reload_file()
 
     def run_from(self, line):
-        if self.loading or not self.manual_ok() or self.running() or not self.loaded_file or not self.accept_limits():
+        def possible():
+            return not self.loading and self.manual_ok() and not self.running() and self.loaded_file
+        if not possible() or not self.accept_limits() or not possible():     # much may happen meanwhile
             return
         if line > 0:
             self.start_at(line)

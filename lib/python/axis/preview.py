@@ -156,8 +156,8 @@ class Preview(Composer, tk.Frame):
 
     # -- drawing ---------------------------------------------------------------------------
 
-    def set_program(self, program, boxed=False, **how):
-        Composer.set_program(self, program, boxed, **how)
+    def set_program(self, program, drawings, boxed=False):
+        Composer.set_program(self, program, drawings, boxed)
         self.view_changed()
 
     def clear_plot(self):

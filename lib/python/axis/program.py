@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Opening programs: filters, the text that is shown, the preview's data. No widgets here."""
 
-import functools
 import os
 import re
 import shutil
-import signal
 import subprocess
+import sys
 import tempfile
 
+from kerf import process
+
+from .reading import MOST_MB, Reading
 from .settings import LETTERS, MM_PER_INCH
 
-MAX_VERTICES = 3000000       # of the preview; longer paths are drawn coarser
 PROGRESS = re.compile(r"FILTER_PROGRESS=(\d+)$")
 
 
@@ -29,9 +30,14 @@ class Loader:
     def __init__(self, settings):
         self.s = settings
         self.folder = tempfile.mkdtemp(prefix="axis-")
-        self.filter = None           # the process of a filter that runs
+        self.command = None          # the process of somebody else's command that runs
+        self.reading = None          # the last reading
+        self.megabytes = MOST_MB
 
     def close(self):
+        self.end()
+        if self.reading:
+            self.reading.kill()
         shutil.rmtree(self.folder, ignore_errors=True)
 
     # -- filters ---------------------------------------------------------------------------
@@ -57,32 +63,43 @@ class Loader:
         target = os.path.join(self.folder, "filtered-" + os.path.basename(path))
         quoted = path.replace("'", "'\\''")
         messages = []
-        with open(target, "wb") as out:
-            child = subprocess.Popen(["sh", "-c", f"{program} '{quoted}'"], stdin=subprocess.DEVNULL, stdout=out,
-                                     stderr=subprocess.PIPE, text=True, errors="replace",
-                                     env=os.environ | {"AXIS_PROGRESS_BAR": "1"}, start_new_session=True)
-            self.filter = child
-            for line in child.stderr:
-                match = PROGRESS.match(line.strip())
-                if match:
-                    progress(int(match[1]))
-                else:
-                    print(line, end="")
-                    messages.append(line)
-            status = child.wait()
-            self.filter = None
+
+        def said(line):
+            match = PROGRESS.match(line.strip())
+            if match:
+                progress(int(match[1]))
+            else:
+                print(line, end="")
+                messages.append(line)
+        status = self.run(f"{program} '{quoted}'", target, said)
         if status:
             raise FilterFailed(program, status, "".join(messages))
         return target
 
-    def end_filter(self):
-        """Ends a filter that runs, with what it started."""
-        child = self.filter
-        if child is not None:
-            try:
-                os.killpg(child.pid, signal.SIGTERM)
-            except ProcessLookupError:
-                pass
+    def run(self, command, target, said):
+        """Runs a shell command whose output becomes the file `target`; said(line) gets its messages. Returns the exit status."""
+        with open(target, "wb") as out:
+            child = subprocess.Popen([sys.executable, process.__file__, str(os.getpid()), "sh", "-c", command], stdin=subprocess.DEVNULL, stdout=out,
+                                     stderr=subprocess.PIPE, text=True, errors="replace", env=os.environ | {"AXIS_PROGRESS_BAR": "1"})
+            self.command = child
+            for line in child.stderr:
+                said(line)
+            status = child.wait()
+            self.command = None
+        return status
+
+    def end(self):
+        """Ends what runs: a command with what it started; a reading hands over what it has."""
+        command = self.command       # the other thread may end it
+        if command is not None:
+            command.terminate()
+        if self.reading is not None:
+            self.reading.stop()
+
+    def look(self):
+        """To be called now and then while something runs."""
+        if self.reading is not None:
+            self.reading.look()
 
     def snapshot(self, path):
         """A copy of the file that later edits do not touch."""
@@ -130,16 +147,23 @@ class Loader:
             shutil.copyfile(own, copy)
         return copy
 
-    def preview(self, path, stat, block_delete=False, progress=lambda line: False):
-        """A function that reads the file, in any thread, and returns a gcode.Program; progress(line) true stops the reading."""
-        import gcode
-        var = self.own_parameters("preview.var")
-        tools = [tuple(t)[:14] for t in stat.tool_table]
-        division = int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64))
-        return functools.partial(gcode.load, path, var, self.init_codes(stat), tools=tools, axis_mask=self.s.axis_mask,
-                                 linear_units=self.s.units_per_mm, ini=self.s.ini_path, arc_division=division,
-                                 block_delete=block_delete, progress=progress, max_vertices=MAX_VERTICES,
-                                 interpreter=self.s.find("TASK", "INTERPRETER") or "")
+    def conditions(self, path, stat, block_delete):
+        """What the path depends on, but for where the machine stands."""
+        codes = [code for code in self.init_codes(stat) if not code.startswith("g53 ")]
+        return path, codes, block_delete, tuple(stat.g5x_offset), tuple(stat.g92_offset), stat.rotation_xy, stat.g5x_index
+
+    def read(self, path, stat, block_delete, places, seconds):
+        """A Reading of the file as the machine would run it now; places, seconds: as for Reading."""
+        arguments = dict(filename=path, parameter_file=self.own_parameters("preview.var"), initcodes=self.init_codes(stat), tools=[tuple(t)[:14] for t in stat.tool_table],
+                         axis_mask=self.s.axis_mask, linear_units=self.s.units_per_mm, ini=self.s.ini_path,
+                         arc_division=int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64)), block_delete=block_delete,
+                         interpreter=self.s.find("TASK", "INTERPRETER") or "")
+        self.reading = Reading(arguments, self.max_feed(), places, seconds, self.megabytes)
+        return self.reading
+
+    def max_feed(self):
+        """Inches a minute."""
+        return self.s.max_linear / (self.s.units_per_mm * MM_PER_INCH) * 60
 
     def too_large(self, path):
         """True for a file that [DISPLAY]GRAPHICAL_MAX_FILE_SIZE (MB) lets be shown as a box only."""
@@ -156,7 +180,7 @@ def parameter(path, number):
 
 def beyond(program, settings, stat, axis):
     """Whether a program leaves the soft limits of X, Y or Z (axis 0 to 2): (below the least, above the greatest)."""
-    if "XYZ"[axis] not in settings.axes:
+    if "XYZ"[axis] not in settings.axes or program.n_moves == 0:
         return False, False
     scale, limits = MM_PER_INCH * settings.units_per_mm, stat.axis[axis]
     low, high = program.extents_tool
@@ -164,8 +188,8 @@ def beyond(program, settings, stat, axis):
 
 
 def limit_warnings(program, settings, stat, translate=str):
-    """Warnings where the program leaves the soft limits of X, Y or Z."""
-    if program is None or program.n_moves == 0:
+    """Warnings where the program leaves the soft limits of X, Y or Z, or where nobody knows."""
+    if program is None:
         return []
     warnings = []
     for i, letter in enumerate("XYZ"):
@@ -193,8 +217,7 @@ def properties(path, source, program, settings, metric, translate=str, run_time=
 
     def length(inches):
         return f"{fmt % (inches * scale)} {unit}"
-    max_feed = settings.max_linear / (settings.units_per_mm * MM_PER_INCH) * 60
-    seconds = program.run_time(max_feed, max_feed) if run_time is None else run_time
+    seconds = program.seconds if run_time is None else run_time
     rows += [(translate("Rapid distance"), length(program.rapid_length)), (translate("Feed distance"), length(program.cutting_length)),
              (translate("Run time"), translate("%.1f minutes") % (seconds / 60) if seconds > 120 else translate("%d seconds") % seconds),
              (translate("Tool Change List"), " ".join(str(tool) for _, tool in program.tools))]

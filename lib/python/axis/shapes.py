@@ -91,24 +91,14 @@ def cylinder_faces(bottom, radius, height):
     return np.array([p for a, b, c, d in zip(low, low[1:], high, high[1:]) for p in (a, b, c, c, b, d, bottom, a, b)], np.float32)
 
 
-def cross(at, plane, half=0.0078125):
-    """The mark of a dwell or a user's M code in a plane: 0 XY, 1 XZ, 2 YZ."""
-    i, j = ((0, 1), (0, 2), (1, 2))[plane]
-    lines = []
-    for sign in (1, -1):
-        ends = []
-        for side in (-1, 1):
-            p = list(at)
-            p[i] += side * half
-            p[j] += side * sign * half
-            ends.append(tuple(p))
-        lines.append(ends)
-    return runs(*lines)
-
-
-def joined(parts):
-    """Several (vertices, kinds) as one."""
-    return np.concatenate([p for p, _ in parts]), np.concatenate([k for _, k in parts])
+def crosses(places, half=0.0078125):
+    """Marks of dwells or a user's M codes. places: bytes, rows of four float32: x y z and plane (0 XY, 1 XZ, 2 YZ)."""
+    rows = np.frombuffer(places, np.float32).reshape(-1, 4)
+    arms = np.zeros((3, 4, 3), np.float32)          # plane, end, axis
+    for plane, (i, j) in enumerate(((0, 1), (0, 2), (1, 2))):
+        arms[plane, :, i], arms[plane, :, j] = (-half, half, -half, half), (-half, half, half, -half)
+    ends = rows[:, None, :3] + arms[rows[:, 3].astype(int)]
+    return ends.reshape(-1, 3), np.tile(np.array([0, 1], np.uint8), 2 * len(rows))
 
 
 def turned(points, degrees, about):

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A display that nobody sees, for panels whose pins a machine without a screen needs."""
 
-import ctypes
 import os
 import shutil
-import signal
 import subprocess
 
-PR_SET_PDEATHSIG = 1
+from .process import end_with_parent
 
 
 def need_display():
@@ -17,10 +15,9 @@ def need_display():
     if not shutil.which("Xvfb"):
         return False
     reading, writing = os.pipe()
-    libc = ctypes.CDLL(None)
     subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset"], pass_fds=[writing],
                      stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                     preexec_fn=lambda: libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0))
+                     preexec_fn=end_with_parent)
     os.close(writing)
     with os.fdopen(reading) as pipe:
         number = pipe.readline().strip()

@@ -25,6 +25,7 @@ from pwd import getpwuid
 
 from . import clock, instance
 from .inivalues import IniError, IniValues
+from .process import end_with_parent
 from .tree import Tree
 
 USAGE = """linuxcnc: Run LinuxCNC
@@ -54,7 +55,6 @@ SESSION = "LINUXCNC_SESSION"
 DISPLAY_PART = "_DISPLAY"     # of the variable that marks the display and its children
 HOST_KEYS = (0x48414C32, 0x90280A48, 0x48484C34)     # HAL, RTAPI, UUID
 TOOL_KEY = 101
-PR_SET_PDEATHSIG = 1
 
 
 class Failure(Exception):
@@ -828,9 +828,7 @@ class Lossy:
 
 def session_main(options, ini_path, tree, guard, told):
     """The session process. Returns the exit status; what died is written to the descriptor `told`."""
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
-    if os.getppid() != guard:
-        return 1
+    end_with_parent(parent=guard)
     signal.signal(signal.SIGTERM, interrupted)
     signal.signal(signal.SIGINT, interrupted)
     signal.signal(signal.SIGQUIT, interrupted)

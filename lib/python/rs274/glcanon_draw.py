@@ -19,6 +19,7 @@ from types import SimpleNamespace
 
 import gcode
 import kerf_raster
+import numpy as np
 from axis.compose import ALPHA, COLOURS, PLOT, Composer
 from axis.dro import Readout
 from axis.settings import LETTERS, MM_PER_INCH
@@ -45,18 +46,13 @@ class Recorded:
         self.extents, self.extents_tool = record.extents, record.extents_notool         # "notool": with the tool offset
         self.extents_zero_rxy = record.extents_zero_rxy
         m1xx = canon.colors.get("m1xx")
-        self.marks = [(line, x, y, z, plane, m1xx is not None and colour == m1xx) for line, colour, x, y, z, plane in canon.dwells]
+        marks = [(m1xx is not None and colour == m1xx, (x, y, z, plane)) for _, colour, x, y, z, plane in canon.dwells]
+        self.mark_places = tuple(np.array([at for user_m, at in marks if user_m == kind], np.float32).tobytes() for kind in (False, True))
 
-    def release_path(self):
-        """The canon keeps it."""
-
-
-class Scenes(Composer):
-    """A composer that draws what a canon recorded, and the tool that the widget says."""
-
-    def drawing(self, program, plane):
-        record = program.record         # its points are placed already
-        return kerf_raster.Drawing(record.positions(max(plane, 0)), record.kinds, record.lines, "XYZ")
+    def drawings(self, planes):
+        """The record's points are placed already."""
+        r = self.record
+        return [kerf_raster.Drawing(r.positions(plane), r.kinds, r.lines, "XYZ") for plane in range(planes)]
 
 
 class GlCanonDraw:
@@ -257,7 +253,7 @@ class GlCanonDraw:
         settings = self._preview_settings()
         what = {name: value for name, value in vars(settings).items() if not callable(value)}      # units are 0 before the first poll
         if self._preview_scenes is None or what != self._preview_settings_made:
-            self._preview_scenes = Scenes(settings, self._preview_options(), self.lp, round(self.get_font_info()[1]))
+            self._preview_scenes = Composer(settings, self._preview_options(), self.lp, round(self.get_font_info()[1]))
             self._preview_settings_made, self._preview_shown, self._preview_view = what, None, None
             self._preview_scenes.current_tool = lambda: self.get_current_tool()
         scenes = self._preview_scenes
@@ -274,7 +270,8 @@ class GlCanonDraw:
             scenes.camera.set_view("lathe" if scenes.s.lathe and view != 3 else VIEWS[view] if view in range(len(VIEWS)) else "p")
             scenes.camera.fit(*scenes.shown_box())
         if self._preview_shown is None:
-            scenes.set_program(Recorded(self.canon) if self.canon is not None else None)
+            recorded = Recorded(self.canon) if self.canon is not None else None
+            scenes.set_program(recorded, recorded.drawings(2 if scenes.s.foam else 1) if recorded else [])
             self._preview_shown = True
         return scenes
 

@@ -3,7 +3,26 @@
 // hal_number.cc - see hal_number.hh.
 #include "hal_number.hh"
 
+#include <unistd.h>
+
 #include <hal.h>
+
+namespace {
+
+struct Membership {
+    int comp;
+    explicit Membership(const std::string &name) : comp(hal_init((name + std::to_string(getpid())).c_str())) {
+        if (comp > 0) hal_ready(comp);
+    }
+    ~Membership() { if (comp > 0) hal_exit(comp); }
+};
+
+} // namespace
+
+bool hal_number_joining(const std::string &component, const char *name, double *value) {
+    static const Membership membership(component);
+    return membership.comp > 0 && hal_number(name, value);
+}
 
 bool hal_number(const char *name, double *value) {
     hal_type_t type;

@@ -69,7 +69,8 @@ std::vector<CANON_TOOL_TABLE> tool_list(const py::object &tools)
 std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &parameter_file, const py::object &init,
                                   const py::object &tools, int axis_mask, double linear_units, double angular_units,
                                   const std::string &ini, int arc_division, bool block_delete, const py::object &start,
-                                  const py::object &progress, size_t max_vertices, const std::string &interpreter)
+                                  const py::object &progress, size_t max_vertices, const std::string &interpreter,
+                                  bool keep_path, const std::string &hal_component)
 {
     ProgramOptions o;
     o.interpreter = interpreter;
@@ -83,6 +84,8 @@ std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &pa
     o.arc_division = arc_division;
     o.block_delete = block_delete;
     o.max_vertices = max_vertices;
+    o.keep_path = keep_path;
+    o.hal_component = hal_component;
     if (!start.is_none()) {
         size_t i = 0;
         for (py::handle h : start)
@@ -281,6 +284,10 @@ void bind_program(py::module_ &m)
         for (const ProgramMark &k : p.marks) l.append(py::make_tuple(k.line, k.x, k.y, k.z, k.plane, k.user_m));
         return l;
     }, "(line, x, y, z, plane, is M1xx) of dwells and user M codes.");
+    c.def("mark_places", [](const ProgramPath &p, bool user_m) {
+        const std::vector<float> points = p.mark_places(user_m);
+        return py::bytes(reinterpret_cast<const char *>(points.data()), points.size() * sizeof(float));
+    }, py::arg("user_m"), "The marks of a kind as rows of four float32: x, y, z in inches, plane.");
     c.def("release_path", &ProgramPath::release_path,
           "Frees positions, lines and kinds, of which no view may be left; lengths, extents, times and marks stay.");
     c.def_readonly("messages", &ProgramPath::messages);
@@ -334,10 +341,13 @@ PYBIND11_MODULE(gcode, m)
           py::arg("tools") = py::none(), py::arg("axis_mask") = 0x1ff, py::arg("linear_units") = 1.0,
           py::arg("angular_units") = 1.0, py::arg("ini") = "", py::arg("arc_division") = 64,
           py::arg("block_delete") = false, py::arg("start") = py::none(), py::arg("progress") = py::none(),
-          py::arg("max_vertices") = 0, py::arg("interpreter") = "",
+          py::arg("max_vertices") = 0, py::arg("interpreter") = "", py::arg("keep_path") = true,
+          py::arg("hal_component") = "",
           "Read a program into a Program. linear_units: machine units per mm; tools: 14-tuples as of get_tool();\n"
           "progress(line) is called about ten times a second and stops the reading when it returns true.\n"
           "max_vertices: a longer path is kept coarser (thinned); lengths, times and extents stay exact.\n"
           "interpreter: library of another language, as [TASK]INTERPRETER.\n"
+          "keep_path: False for these alone. hal_component: joins HAL as NAME and the process's number when the\n"
+          "program looks at a pin; else this process must have joined for that.\n"
           "The parameter file is read and, like by every interpreter start, written: give a copy.");
 }

@@ -10,6 +10,11 @@
 #include <cstring>
 #include <ctime>
 
+namespace
+{
+constexpr size_t MOST_MARKS = 20000, MOST_CHANGES = 20000; // kept, also of a program without an end
+} // namespace
+
 void Box::add(double x, double y, double z)
 {
     const double p[3] = {x, y, z};
@@ -54,6 +59,14 @@ void PathPoints::set(size_t i, const Point9 &p)
     for (size_t k = 0; k < columns_; ++k) data_[i * columns_ + k] = float(p[k]);
 }
 
+std::vector<float> ProgramPath::mark_places(bool user_m) const
+{
+    std::vector<float> out;
+    for (const ProgramMark &m : marks)
+        if (m.user_m == user_m) out.insert(out.end(), {float(m.x), float(m.y), float(m.z), float(m.plane)});
+    return out;
+}
+
 void ProgramPath::release_path()
 {
     points = PathPoints();
@@ -91,6 +104,11 @@ class PathCanon final : public PreviewCanon
         return size_t(idx) < options.tools.size() ? options.tools[size_t(idx)] : tooldata_entry_init();
     }
     void print_line(const char *) override {}
+    bool hal_value(const char *name, double *value) override
+    {
+        if (options.hal_component.empty()) return hal_number(name, value);
+        return hal_number_joining(options.hal_component, name, value);
+    }
 
     /// All that came before belongs to the preparation.
     void begin_program()
@@ -170,7 +188,8 @@ class PathCanon final : public PreviewCanon
     {
         first_move = true;
         need_jump = true;
-        path.tool_changes.emplace_back(uint32_t(path.points.size()), toolno);
+        if (path.tool_changes.size() < MOST_CHANGES)
+            path.tool_changes.emplace_back(uint32_t(path.points.size()), toolno);
     }
     void on_comment(const char *text) override
     {
@@ -233,6 +252,7 @@ class PathCanon final : public PreviewCanon
     }
     void vertex(int line, const Point9 &p, PathKind kind)
     {
+        if (!options.keep_path) return;
         if (options.max_vertices && path.points.size() >= options.max_vertices) thin();
         // A piece that was left out is replaced by the next of its kind.
         if (path.thinned > 1 && kind != PathKind::JUMP && left_out && !path.points.empty() &&
@@ -264,7 +284,7 @@ class PathCanon final : public PreviewCanon
     }
     void piece(int line, const Point9 &to, PathKind kind)
     {
-        if (need_jump || path.points.empty()) {
+        if (need_jump) {
             vertex(line, here, PathKind::JUMP);
             extend(here);
             need_jump = false;
@@ -288,6 +308,13 @@ class PathCanon final : public PreviewCanon
     }
     void mark(int line, bool user_m)
     {
+        if (++marked % mark_step != 0) return;
+        if (path.marks.size() >= MOST_MARKS) { // from now on half as many, and of what is there
+            size_t to = 0;
+            for (size_t i = 1; i < path.marks.size(); i += 2) path.marks[to++] = path.marks[i];
+            path.marks.resize(to);
+            mark_step *= 2;
+        }
         const int p = plane == CANON_PLANE_XZ ? 1 : plane == CANON_PLANE_YZ ? 2 : 0;
         path.marks.push_back({line, here[0], here[1], here[2], p, user_m});
     }
@@ -299,8 +326,9 @@ class PathCanon final : public PreviewCanon
     Point9 tool{};
     float feed = 60, feed_key = 0;
     double *feed_length = nullptr;
-    bool first_move = true, need_jump = true, left_out = false;
+    bool first_move = true, need_jump = true, left_out = false; // need_jump: a run begins
     int skipped = 0;
+    size_t marked = 0, mark_step = 1; // marks so far; every n-th is kept
     int suppress = 0;
     std::vector<Point9> segments;
 };

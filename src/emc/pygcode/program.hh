@@ -48,6 +48,9 @@ struct ProgramOptions {
     bool block_delete = false;
     Point9 start{}; // machine position, inches
     size_t max_vertices = 0; // beyond it, only every n-th piece is kept (0: no bound)
+    bool keep_path = true;   // false: only lengths, times and extents are found out
+    /// Joins HAL under this name and the process's number when the program looks at a pin; empty: never.
+    std::string hal_component;
 };
 
 /// Vertices of nine axes; of each the first three, or as many as it takes to hold those that ever leave zero.
@@ -78,8 +81,8 @@ struct ProgramPath {
     PathPoints points;
     std::vector<int32_t> lines;
     std::vector<uint8_t> kinds;
-    std::vector<std::pair<uint32_t, int>> tool_changes; // vertex, tool number
-    std::vector<ProgramMark> marks;
+    std::vector<std::pair<uint32_t, int>> tool_changes; // vertex, tool number; the first MOST_CHANGES
+    std::vector<ProgramMark> marks;                     // of a very long program every n-th
     std::vector<std::string> messages;
     Box extents, extents_notool, extents_unrotated, extents_notool_unrotated;
     double rapid_length = 0, cutting_length = 0, dwell_time = 0;
@@ -94,6 +97,8 @@ struct ProgramPath {
     int notify = 0;
     std::string notify_message;
 
+    /// x, y, z and plane of each mark of a kind.
+    std::vector<float> mark_places(bool user_m) const;
     void release_path(); ///< frees points, lines and kinds
     double cutting_time(double max_feed) const; ///< s; max_feed: in/min
 };

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 import os
+import signal
 import sys
 import threading
 
@@ -219,10 +220,10 @@ def loading(op, here):
 
 
 def remote_estop(op, here):
-    """FP-187: halui's emergency stop in each part of the loading: the filter, task, reading, the drawing."""
+    """FP-187: halui's emergency stop in each part of the loading: the filter, task, reading."""
     app, at, go = op.app, [], os.environ["GO"]
     begun, done = threading.Event(), threading.Event()
-    real = {"filter": app.loader.filtered, "copy": app.loader.kept_text, "reading": app.loader.preview, "drawing": app.preview.drawing}
+    real = {"filter": app.loader.filtered, "copy": app.loader.kept_text, "reading": app.loader.read}
 
     def stopped_at(name, function):
         def call(*args, **more):
@@ -241,10 +242,13 @@ def remote_estop(op, here):
         hal.set_p("halui.estop.activate", "1")
         at.append(clock.wait_until(lambda: linuxcnc_stat().task_state == linuxcnc.STATE_ESTOP, 1.0, 0.02))
         done.set()
-    app.loader.filtered, app.loader.kept_text, app.preview.drawing = (stopped_at(n, real[n]) for n in ("filter", "copy", "drawing"))
-    app.loader.preview = lambda *args, **more: stopped_at("reading", real["reading"](*args, **more))
+    def read(*args):
+        reading = real["reading"](*args)
+        reading.result = stopped_at("reading", reading.result)
+        return reading
+    app.loader.filtered, app.loader.kept_text, app.loader.read = stopped_at("filter", real["filter"]), stopped_at("copy", real["copy"]), read
     open(go, "w").close()
-    for name in ("filter", "copy", "reading", "drawing"):
+    for name in ("filter", "copy", "reading"):
         at[:] = [name]
         begun.clear()
         done.clear()
@@ -261,7 +265,7 @@ def remote_estop(op, here):
         op.wait(0.5)
         print("FP-187: loading,", at[0], "on", at[1], "stopped meanwhile", at[2], "| after it: screen", estop, "loading", hand, "then", app.vars.task_state_string.get(), "jogs", moves)
     os.remove(go)
-    app.loader.filtered, app.loader.kept_text, app.loader.preview, app.preview.drawing = (real[n] for n in ("filter", "copy", "reading", "drawing"))
+    app.loader.filtered, app.loader.kept_text, app.loader.read = (real[n] for n in ("filter", "copy", "reading"))
 
 
 def linuxcnc_stat():
@@ -277,21 +281,24 @@ def beside(op, here):
     op.root.after(50, lambda: open(go, "w").close())
     app.open_file_guts(os.path.join(here, "part.wait"))
     print("FP-136: the screen goes on: while a silent filter works:", app.code.total, "lines,", end=" ")
-    begun, seen, drawing = threading.Event(), threading.Event(), app.preview.drawing
+    looks, read = [], app.loader.read
 
-    def waits(*args):
-        begun.set()
-        print("while the drawing is made:", seen.wait(20), end=" ")
-        return drawing(*args)
-    def go_on():
-        if begun.is_set():
-            seen.set()
-        else:
+    def stopped(*args):
+        """The process that reads is stopped until the screen has looked around three times."""
+        reading = read(*args)
+        os.kill(reading.child.pid, signal.SIGSTOP)
+
+        def go_on():
+            looks.append(True)
+            if len(looks) == 3:
+                os.kill(reading.child.pid, signal.SIGCONT)
             op.root.after(20, go_on)
-    op.root.after(20, go_on)
-    app.preview.drawing = waits
+        op.root.after(20, go_on)
+        return reading
+    app.loader.read = stopped
     app.open_file_guts(os.path.join(here, "part.ngc"))
-    del app.preview.drawing
+    print("while the program is read:", len(looks) >= 3, end=" ")
+    del app.loader.read
     os.remove(go)
     op.root.after(300, lambda: op.root.event_generate("<KeyPress-Escape>"))
     app.open_file_guts(os.path.join(here, "part.wait"))

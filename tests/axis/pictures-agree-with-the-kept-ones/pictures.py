@@ -13,7 +13,7 @@ import kerf_raster
 import linuxcnc
 import numpy as np
 from PIL import Image, ImageFilter
-from axis import drawn, settings
+from axis import drawn, reading, settings
 from axis.compose import Composer
 from kerf import gl
 from kerf.glpath import Renderer
@@ -83,7 +83,7 @@ def draw(gl_library, name):
         loaded = gcode.load(str(path), folder + "/var", ["G21", "G90"], tools=tools, axis_mask=s.axis_mask, linear_units=s.units_per_mm)
         if loaded.error:
             print(name, loaded.error)
-        composer.set_program(loaded)
+        composer.set_program(reading.Program.of(loaded, 60.0), [reading.drawing(loaded, *place) for place in composer.places()])
     composer.camera.set_view("lathe" if s.lathe else view)
     composer.camera.fit(*composer.shown_box())
     composer.readout_lines, composer.marks = ["     X:   0.000", "     Y:   1.500"], [(True, False), (False, True)]

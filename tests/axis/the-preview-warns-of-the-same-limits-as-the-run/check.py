@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import gcode
 import linuxcnc
-from axis import settings
+from axis import reading, settings
 from axis.compose import Composer
 from axis.program import limit_warnings
 from rs274.glcanon import GLCanon
@@ -70,8 +70,8 @@ with tempfile.TemporaryDirectory() as folder:
                                         g5x_index=1, rotation_xy=0.0)
         expected = [f"Program exceeds machine {name} on axis {letter}" for i, letter in enumerate("XYZ")
                     for name, over in (("minimum", 25.4 * canon.min_extents_notool[i] < -reach), ("maximum", 25.4 * canon.max_extents_notool[i] > reach)) if over]
-        told = limit_warnings(loaded, s, composer.stat)
-        composer.set_program(loaded)
+        told = limit_warnings(reading.Program.of(loaded, 60.0), s, composer.stat)
+        composer.set_program(reading.Program.of(loaded, 60.0), [reading.drawing(loaded, *place) for place in composer.places()])
         flagged = 0
         for view in ("z", "x"):         # X and Y, then Z
             composer.camera.set_view(view)

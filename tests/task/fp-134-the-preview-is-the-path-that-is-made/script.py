@@ -61,7 +61,7 @@ for n in range(2):
     mode(MODE_MANUAL)
     c.task_plan_synch()
     c.wait_complete()
-    preview = loader.preview(str(Path(f"p{n}.ngc").resolve()), poll())()
+    preview, (drawn,) = loader.read(str(Path(f"p{n}.ngc").resolve()), poll(), False, [(-1, 0.0, "XYZABCUVW", [0.0] * 9, "XYZ")], 60.0).result()
     mode(MODE_AUTO)
     offset = numpy.array(poll().tool_offset[:3])
     made = [numpy.array(s.position[:3]) - offset]
@@ -71,7 +71,7 @@ for n in range(2):
         sleep(0.001 if s.current_vel < 7 else 0.002)  # corners are met exactly
     made.append(numpy.array(poll().position[:3]) - numpy.array(s.tool_offset[:3]))
     made = numpy.array(made)
-    shown = numpy.asarray(preview.positions)[:, :3].astype(float) * 25.4
+    shown = numpy.asarray(drawn.vertices).astype(float) * 25.4
     worst = max(distances(shown, made))
     reach = max(abs(made.max(0) - shown.max(0)).max(), abs(made.min(0) - shown.min(0)).max())
     print(n, preview.error, messages(), "vertices", len(shown) > 20, "on the path" if worst < 1e-3 else f"OFF by {worst:.6f}", "same extent" if reach < 0.05 else f"EXTENT differs by {reach:.4f}")

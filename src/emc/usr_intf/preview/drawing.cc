@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "drawing.hh"
 
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 namespace kerf {
 
@@ -107,14 +113,17 @@ Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines
                  const Placement &placement)
 {
     const Places place(placement);
-    xyz_.reserve(3 * count);
-    kinds_.reserve(count);
-    lines_.reserve(count);
+    std::vector<float> xyz;
+    std::vector<uint8_t> all_kinds;
+    std::vector<int32_t> all_lines;
+    xyz.reserve(3 * count);
+    all_kinds.reserve(count);
+    all_lines.reserve(count);
     auto add = [&](const float *nine, uint8_t kind, int32_t line) {
         const auto p = place(nine);
-        xyz_.insert(xyz_.end(), p.begin(), p.end());
-        kinds_.push_back(kind);
-        lines_.push_back(line);
+        xyz.insert(xyz.end(), p.begin(), p.end());
+        all_kinds.push_back(kind);
+        all_lines.push_back(line);
     };
     float from[9] = {}, to[9] = {};
     for (size_t i = 0; i < count; ++i) {
@@ -133,7 +142,121 @@ Drawing::Drawing(const float *points, const uint8_t *kinds, const int32_t *lines
         add(to, kinds[i], lines[i]);
         std::copy_n(to, 9, from);
     }
+    xyz_ = std::move(xyz);
+    kinds_ = std::move(all_kinds);
+    lines_ = std::move(all_lines);
     build_levels();
+}
+
+// ---- from one process to another -----------------------------------------------------------
+
+namespace {
+
+constexpr uint64_t MARK = 0x31676e6977617264; // "drawing1"
+constexpr size_t ALIGN = 16;
+
+struct Head {
+    uint64_t mark, vertices, levels, size; // size: of the whole file, bytes
+};
+struct LevelHead {
+    double tolerance;
+    uint64_t entries, boxes;
+};
+
+size_t padded(size_t bytes) { return (bytes + ALIGN - 1) / ALIGN * ALIGN; }
+
+void put(int fd, const void *data, size_t bytes)
+{
+    static const char zeros[ALIGN] = {};
+    const struct {
+        const char *at;
+        size_t left;
+    } parts[] = {{static_cast<const char *>(data), bytes}, {zeros, padded(bytes) - bytes}};
+    for (auto [at, left] : parts)
+        while (left > 0) {
+            const ssize_t n = ::write(fd, at, left);
+            if (n < 0 && errno == EINTR) continue;
+            if (n <= 0) throw std::runtime_error(std::string("a drawing can not be written: ") + strerror(errno));
+            at += n;
+            left -= size_t(n);
+        }
+}
+
+template <class T> void put(int fd, const Row<T> &row) { put(fd, row.data(), row.size() * sizeof(T)); }
+
+/// Takes rows off a file in the order in which they were put.
+class Taker {
+public:
+    explicit Taker(const MappedFile &file) : file_(file) {}
+    template <class T> Row<T> take(uint64_t count)
+    {
+        if (count > (file_.size() - at_) / sizeof(T) || padded(count * sizeof(T)) > file_.size() - at_)
+            throw std::runtime_error("a drawing is not complete");
+        const T *data = reinterpret_cast<const T *>(file_.data() + at_);
+        at_ += padded(count * sizeof(T));
+        return Row<T>(data, count);
+    }
+
+private:
+    const MappedFile &file_;
+    size_t at_ = 0;
+};
+
+} // namespace
+
+MappedFile::MappedFile(int fd)
+{
+    struct stat found;
+    if (fstat(fd, &found) != 0) throw std::runtime_error(std::string("a drawing can not be read: ") + strerror(errno));
+    size_ = size_t(found.st_size);
+    void *at = size_ ? mmap(nullptr, size_, PROT_READ, MAP_SHARED | MAP_POPULATE, fd, 0) : nullptr;
+    if (at == MAP_FAILED) throw std::runtime_error(std::string("a drawing can not be read: ") + strerror(errno));
+    data_ = static_cast<const char *>(at);
+}
+
+MappedFile::~MappedFile()
+{
+    if (data_) munmap(const_cast<char *>(data_), size_);
+}
+
+void Drawing::write(int fd) const
+{
+    std::vector<LevelHead> heads;
+    size_t size = padded(sizeof(Head)) + padded(levels_.size() * sizeof(LevelHead)) +
+                  padded(xyz_.size() * sizeof(float)) + padded(kinds_.size()) + padded(lines_.size() * sizeof(int32_t));
+    for (const Level &l : levels_) {
+        heads.push_back({l.tolerance, l.index.size(), l.boxes.size()});
+        size += padded(l.index.size() * sizeof(uint32_t)) + padded(l.boxes.size() * sizeof(l.boxes[0]));
+    }
+    const Head head{MARK, kinds_.size(), levels_.size(), size};
+    put(fd, &head, sizeof head);
+    put(fd, heads.data(), heads.size() * sizeof(LevelHead));
+    put(fd, xyz_);
+    put(fd, kinds_);
+    put(fd, lines_);
+    for (const Level &l : levels_) {
+        put(fd, l.index);
+        put(fd, l.boxes);
+    }
+}
+
+Drawing::Drawing(std::unique_ptr<MappedFile> file) : file_(std::move(file))
+{
+    Taker from(*file_);
+    const Head head = from.take<Head>(1)[0];
+    if (head.mark != MARK || head.size != file_->size() || head.vertices > file_->size())
+        throw std::runtime_error("a drawing is not complete");
+    const Row<LevelHead> heads = from.take<LevelHead>(head.levels);
+    xyz_ = from.take<float>(3 * head.vertices);
+    kinds_ = from.take<uint8_t>(head.vertices);
+    lines_ = from.take<int32_t>(head.vertices);
+    for (const LevelHead &h : heads) {
+        Level level;
+        level.tolerance = h.tolerance;
+        level.index = from.take<uint32_t>(h.entries);
+        level.boxes = from.take<std::array<float, 6>>(h.boxes);
+        levels_.push_back(std::move(level));
+    }
 }
 
 bool Drawing::extents(std::array<double, 3> &low, std::array<double, 3> &high) const
@@ -152,6 +275,7 @@ bool Drawing::extents(std::array<double, 3> &low, std::array<double, 3> &high) c
 void Drawing::add_boxes(Level &level) const
 {
     const size_t n = entries(level);
+    std::vector<std::array<float, 6>> boxes;
     for (size_t first = 0; first < n; first += CHUNK) {
         std::array<float, 6> b{1e30f, 1e30f, 1e30f, -1e30f, -1e30f, -1e30f};
         for (size_t i = first ? first - 1 : 0; i < std::min(n, first + CHUNK); ++i) {
@@ -161,8 +285,9 @@ void Drawing::add_boxes(Level &level) const
                 b[a + 3] = std::max(b[a + 3], p[a]);
             }
         }
-        level.boxes.push_back(b);
+        boxes.push_back(b);
     }
+    level.boxes = std::move(boxes);
 }
 
 /// A vertex is left out while all that were left out since the last kept one lie within `reach` of the straight
@@ -208,9 +333,11 @@ void Drawing::build_levels()
         level.tolerance = size / parts;
         // Kept vertices of level k are within size/2parts of those dropped before: half of the tolerance is left.
         const size_t before = entries(from);
-        simplify(from, float(level.tolerance / 2), level.index);
-        if (level.index.size() > before * 9 / 10) continue; // not worth a list
-        level.index.shrink_to_fit();
+        std::vector<uint32_t> kept;
+        simplify(from, float(level.tolerance / 2), kept);
+        if (kept.size() > before * 9 / 10) continue; // not worth a list
+        kept.shrink_to_fit();
+        level.index = std::move(kept);
         add_boxes(level);
         levels_.push_back(std::move(level));
     }

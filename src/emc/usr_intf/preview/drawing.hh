@@ -13,7 +13,7 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,10 +42,45 @@ private:
     bool turns_ = false;
 };
 
+/// Numbers in a row: own ones, or a part of memory that somebody else keeps.
+template <class T> class Row {
+public:
+    Row() = default;
+    Row(std::vector<T> own) : own_(std::move(own)), data_(own_.data()), size_(own_.size()) {}
+    Row(const T *data, size_t size) : data_(data), size_(size) {}
+    Row(Row &&) = default; // a vector's numbers stay where they are when it moves
+    Row &operator=(Row &&) = default;
+    const T *data() const { return data_; }
+    size_t size() const { return size_; }
+    const T &operator[](size_t i) const { return data_[i]; }
+    const T *begin() const { return data_; }
+    const T *end() const { return data_ + size_; }
+
+private:
+    std::vector<T> own_;
+    const T *data_ = nullptr;
+    size_t size_ = 0;
+};
+
 struct Level {
-    double tolerance = 0;                       // inches
-    std::vector<uint32_t> index;                // vertex numbers in order; empty where the tolerance is 0: all
-    std::vector<std::array<float, 6>> boxes;    // least and greatest of each chunk
+    double tolerance = 0;              // inches
+    Row<uint32_t> index;               // vertex numbers in order; empty where the tolerance is 0: all
+    Row<std::array<float, 6>> boxes;   // least and greatest of each chunk
+};
+
+/// A file in memory, for reading; ends with the last that uses it.
+class MappedFile {
+public:
+    explicit MappedFile(int fd); // throws std::runtime_error
+    ~MappedFile();
+    MappedFile(const MappedFile &) = delete;
+    MappedFile &operator=(const MappedFile &) = delete;
+    const char *data() const { return data_; }
+    size_t size() const { return size_; }
+
+private:
+    const char *data_ = nullptr;
+    size_t size_ = 0;
 };
 
 /// What to draw of one level: pieces of its list.
@@ -65,9 +100,14 @@ public:
     Drawing(const float *points, const uint8_t *kinds, const int32_t *lines, size_t count, size_t columns,
             const Placement &placement);
 
-    const std::vector<float> &xyz() const { return xyz_; }
-    const std::vector<uint8_t> &kinds() const { return kinds_; }
-    const std::vector<int32_t> &lines() const { return lines_; }
+    /// One that another process wrote; its numbers stay in the file. Throws std::runtime_error when it is not complete.
+    explicit Drawing(std::unique_ptr<MappedFile> file);
+    /// For the other constructor; the same build reads it. Throws std::runtime_error.
+    void write(int fd) const;
+
+    const Row<float> &xyz() const { return xyz_; }
+    const Row<uint8_t> &kinds() const { return kinds_; }
+    const Row<int32_t> &lines() const { return lines_; }
     const std::vector<Level> &levels() const { return levels_; }
     /// Least and greatest of what is drawn; false when nothing is.
     bool extents(std::array<double, 3> &low, std::array<double, 3> &high) const;
@@ -89,9 +129,10 @@ private:
     void build_levels();
     void simplify(const Level &from, float reach, std::vector<uint32_t> &kept) const;
     void add_boxes(Level &level) const;
-    std::vector<float> xyz_;
-    std::vector<uint8_t> kinds_;
-    std::vector<int32_t> lines_;
+    std::unique_ptr<MappedFile> file_;
+    Row<float> xyz_;
+    Row<uint8_t> kinds_;
+    Row<int32_t> lines_;
     std::vector<Level> levels_;
 };
 

@@ -39,7 +39,7 @@ std::shared_ptr<Drawing> make(const py::buffer &points, const py::buffer &kinds,
                                      placement);
 }
 
-template <class T> py::memoryview view(const std::vector<T> &data, const char *format, py::ssize_t width)
+template <class T> py::memoryview view(const Row<T> &data, const char *format, py::ssize_t width)
 {
     const py::ssize_t item = sizeof(T), n = py::ssize_t(data.size());
     T *at = const_cast<T *>(data.data());
@@ -63,6 +63,17 @@ void bind_drawing(py::module_ &m)
              py::arg("plane_z") = 0.0,
              "points: N x 9 (or the first 3 or more columns, the others zero) float32 (inches, degrees); plane 0 or 1: "
              "XY or UV of a foam cutter at height plane_z.")
+        .def("write", &Drawing::write, py::arg("fd"), py::call_guard<py::gil_scoped_release>(),
+             "Into a file, for mapped() in another process.")
+        .def_static(
+            "mapped",
+            [](int fd) {
+                py::gil_scoped_release release;
+                return std::make_shared<Drawing>(std::make_unique<MappedFile>(fd));
+            },
+            py::arg("fd"),
+            "The drawing that a file holds; it stays there (the descriptor may be closed). RuntimeError when it is not "
+            "complete.")
         .def_property_readonly(
             "vertices", [](const Drawing &d) { return view(d.xyz(), "f", 3); }, py::keep_alive<0, 1>())
         .def_property_readonly(

@@ -7,7 +7,11 @@
 // Out:    stdout: `LINE NUMBER SECONDS` when a move begins (at most every STEP_S seconds of the machine), last
 //         `end SECONDS` or `stopped SECONDS REASON`. Exit status 0; 1 when nothing is known
 // Thread: [task]; a process of its own, so that a program without an end can be stopped
+#include <sys/prctl.h>
+#include <unistd.h>
+
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,8 +20,8 @@
 #include "client.hh"
 #include "dry_run.hh"
 #include "emc_args.hh"
-#include "hal.h"
 #include "emc/canon/hal_number.hh"
+#include "rtapi.h"
 #include "run_time.hh"
 
 namespace {
@@ -27,10 +31,11 @@ constexpr int LINES = 100;          // read at a time
 
 const char USAGE[] =
     "usage: kerf-time -ini FILE [-f FEED] [-r RAPID] [-s SPINDLE] [-v MAX_VELOCITY] [-t TOOL_CHANGE_S]\n"
-    "       [-a S_PER_RPM] [-u USER_CODE_S] [-c CPU_SECONDS] [-i CODE]... [-b 0|1] PROGRAM\n"
+    "       [-a S_PER_RPM] [-u USER_CODE_S] [-c CPU_SECONDS] [-i CODE]... [-b 0|1] [-p PID] PROGRAM\n"
     "Prints how long PROGRAM will run on the running machine. FEED, RAPID, SPINDLE: overrides, 1 = 100 %.\n"
     "-i: a line that is executed before and does not count. \n"
-    "-a: what a spindle takes to change its speed. -b: lines with '/' are left out (1, default) or not.\n";
+    "-a: what a spindle takes to change its speed. -b: lines with '/' are left out (1, default) or not.\n"
+    "-p: ends with the process PID that started it.\n";
 
 struct Options {
     std::string ini, program;
@@ -38,6 +43,7 @@ struct Options {
     std::vector<std::string> init;
     double cpu_s = 300;
     bool block_delete = true;
+    double parent = 0;
 };
 
 bool number(const char *text, double least, double *value) {
@@ -66,6 +72,7 @@ bool parse(int argc, char **argv, Options *o) {
         else if (word == "-a" && number(argv[i], 0, &o->rates.s_per_rpm)) continue;
         else if (word == "-u" && number(argv[i], 0, &o->rates.user_code_s)) continue;
         else if (word == "-c" && number(argv[i], 0, &o->cpu_s)) continue;
+        else if (word == "-p" && number(argv[i], 1, &o->parent)) continue;
         else if (word == "-b" && number(argv[i], 0, &block)) o->block_delete = block != 0;
         else return false;
     }
@@ -78,23 +85,10 @@ double cpu_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Joins HAL when a program asks for a pin, and only then.
-struct Hal {
-    int comp = 0;
-    ~Hal() { if (comp > 0) hal_exit(comp); }
-    bool join() {
-        if (comp != 0) return comp > 0;
-        comp = hal_init(("time" + std::to_string(getpid())).c_str());
-        return comp > 0 && hal_ready(comp) == 0;
-    }
-} hal;
-
-bool pin_value(const char *name, double *value) { return hal.join() && hal_number(name, value); }
-
 void wire(TaskCanon &canon) {
     canon.user_code_exists = [](int) { return true; };
     canon.user_code_command = [](int n, double, double) { return "M" + std::to_string(100 + n); };
-    canon.hal_lookup = pin_value;
+    canon.hal_lookup = [](const char *name, double *value) { return hal_number_joining("time", name, value); };
 }
 
 // What the lines before the program leave, as the planner and the interpreter of the program start with it.
@@ -175,6 +169,10 @@ int main(int argc, char **argv) {
     if (!parse(argc, argv, &o)) {
         fputs(USAGE, stderr);
         return 2;
+    }
+    if (o.parent > 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (getppid() != static_cast<pid_t>(o.parent)) return 1; // it is gone already
     }
     linuxcnc::IniFile ini;
     if (!ini.open(o.ini)) return 1;

@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""axis_load_bench.py [LINES...]: what an operator waits for when AXIS opens a program, in real time; needs a display (xvfb-run -a).
+
+For each size (a zigzag surface, see preview_bench.py): seconds until the program is opened and drawn, the longest time in which the
+screen did not answer, the most memory of the screen and of the processes it started, MB.
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from preview_bench import SIZES, write
+
+top = Path(__file__).resolve().parents[4]
+
+
+class Gaps:
+    """The longest time between two looks of the screen at its events."""
+
+    def __init__(self, root):
+        self.root, self.worst, self.memory, self.going = root, 0.0, 0.0, True
+        self.last = time.monotonic()
+        self.look()
+
+    def look(self):
+        now = time.monotonic()
+        self.worst = max(self.worst, now - self.last)
+        if self.going:
+            self.memory = max(self.memory, family_mb(os.getpid()))
+            self.last = time.monotonic()
+            self.root.after(5, self.look)
+
+
+def family_mb(pid):
+    """Memory of a process and those that it started, shared pages counted once (Pss)."""
+    total, waiting = 0.0, [pid]
+    while waiting:
+        pid = waiting.pop()
+        try:
+            with open(f"/proc/{pid}/smaps_rollup") as f:
+                total += next(int(line.split()[1]) for line in f if line.startswith("Pss:")) / 1024
+            for task in os.listdir(f"/proc/{pid}/task"):
+                with open(f"/proc/{pid}/task/{task}/children") as f:
+                    waiting += f.read().split()
+        except (OSError, StopIteration):
+            pass
+    return total
+
+
+def measure(ini_path, sizes):
+    import tkinter as tk
+    from axis.app import App
+    root = tk.Tk(className="Axis")
+    app = App(root, ini_path)
+    app.start(None)
+    for _ in range(20):
+        app.tick()
+        root.update()
+    for size in sizes:
+        path = f"{size}.ngc"
+        write(path, size)
+        gaps, begin = Gaps(root), time.monotonic()
+        app.open_file_guts(path)
+        opened = time.monotonic() - begin
+        end = time.monotonic() + 2
+        while time.monotonic() < end or not app.preview.picture.exact and time.monotonic() < end + 30:
+            root.update()
+            time.sleep(0.002)
+        gaps.going = False
+        root.update()
+        print(f"{size:8d} lines: opened in {opened:.2f} s, longest silence {gaps.worst * 1000:.0f} ms, {gaps.memory:.0f} MB together ({app.preview.picture.kind}, "
+              f"{app.preview.program.n_moves} moves)", flush=True)
+        os.remove(path)
+    app.close()
+    os._exit(0)
+
+
+def main(sizes):
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch) / "mill"
+        shutil.copytree(top / "configs/sim/mill", folder)
+        ini = (folder / "mill.ini").read_text().replace("DISPLAY = axis", "DISPLAY = ./display").replace("HALUI = halui", "")
+        (folder / "mill.ini").write_text(ini)
+        (folder / "display").write_text(f"#!/bin/sh\nexec /usr/bin/python3 {Path(__file__).resolve()} measure {folder}/mill.ini {' '.join(map(str, sizes))} > out 2>&1\n")
+        (folder / "display").chmod(0o755)
+        done = subprocess.run(["linuxcnc", "-r", "mill.ini"], cwd=folder, env=dict(os.environ, HOME=scratch), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        print((folder / "out").read_text() if (folder / "out").exists() else done.stdout, end="")
+        return done.returncode
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["measure"]:
+        measure(sys.argv[2], [int(n) for n in sys.argv[3:]])
+    sys.exit(main([int(n) for n in sys.argv[1:]] or SIZES))

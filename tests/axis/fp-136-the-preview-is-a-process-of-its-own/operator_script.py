@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+import os
+import signal
+import sys
+
+import linuxcnc
+import operator_lib as lib
+from axis import opening
+
+
+def script(op):
+    sys.stdout = open("transcript", "w", buffering=1)
+    app, here = op.app, os.path.dirname(os.getcwd())
+    read, done, impatient = app.loader.read, [], []
+    op.power_on()
+    op.home()
+
+    def open_while(name, disturb=None):
+        """Opens a program; disturb(process number) is called when it begins to be read for the picture."""
+        op.key("F3")
+        app.notifications.clear()
+        done.clear()
+
+        def disturbed(*args):
+            reading = read(*args)
+            done.append("path" if args[3] else "limits")
+            if args[3] and disturb:
+                disturb(reading.child.pid)
+            if not args[3] and impatient:
+                op.root.after(50, impatient.pop())
+            return reading
+        app.loader.read = disturbed
+        app.open_file_guts(os.path.join(here, name))
+        op.wait(0.1)
+
+    def show(what):
+        p = app.preview
+        print(f"{what}: drawn: {len(p.drawings)}, whole: {not p.program.aborted}, told: {op.messages()}, usable: {not app.loading and op.stat.task_state == linuxcnc.STATE_ON}")
+
+    def run():
+        """r is pressed; what the operator is asked, how far the machine went."""
+        done.clear()
+        op.key("r")
+        op.wait(0.2)
+        started = op.stat.interp_state != linuxcnc.INTERP_IDLE
+        op.key("Escape")
+        op.idle()
+        print("  run: readings:", done, "started:", started)
+
+    app.follow_offsets = lambda: None
+    escape = lambda: op.root.event_generate("<KeyPress-Escape>")
+    op.answer(2)
+    open_while("part.ngc")
+    print("a process of its own:", app.loader.reading.child.pid != os.getpid(), "ended:", app.loader.reading.child.returncode)
+    show("as usual")
+    run()
+
+    open_while("pins.ngc")
+    print("reads the machine's pins:", [round(25.4 * x) for x in app.preview.program.extents[1]], op.messages())
+
+    def stops(pid):
+        os.kill(pid, signal.SIGSTOP)
+        op.root.after(100, escape)
+    open_while("part.ngc", stops)
+    show("hangs, Escape")
+    run()
+    open_while("part.ngc", lambda pid: os.kill(pid, signal.SIGSEGV))
+    show("crashes")
+    run()
+    app.loader.megabytes = 1
+    open_while("beyond.ngc")
+    show("too much memory")
+    run()
+    app.loader.megabytes = 400
+
+    open_while("beyond.ngc", lambda pid: (os.kill(pid, signal.SIGSTOP), op.root.after(50, lambda: (escape(), os.kill(pid, signal.SIGCONT)))))
+    show("cancelled")
+    run()
+    real, app.settings.real = app.settings.real, lambda names, default=0.0: 0.3 if names[1] == "PREVIEW_TIMEOUT" else real(names, default=default)
+    open_while("endless.ngc")
+    show("its time is over")
+    impatient.append(escape)
+    run()
+    longest, opening.LONGEST_PREVIEW_S = opening.LONGEST_PREVIEW_S, 0.3
+    run()
+    run()
+    opening.LONGEST_PREVIEW_S = longest
+    app.settings.real = lambda names, default=0.0: 1e-5 if names[1] == "GRAPHICAL_MAX_FILE_SIZE" else real(names, default=default)
+    open_while("beyond.ngc")
+    show("only a box")
+    run()
+    app.settings.real = real
+    open_while("part.ngc")
+    op.key("F5")
+    op.type("G10 L2 P1 X-3000")
+    op.idle()
+    op.key("F3")
+    print("offsets that the preview does not know:", app.preview.program.extents_tool[0][0] == 0)
+    run()
+
+
+lib.run(script)

@@ -1,0 +1,15 @@
+#!/bin/bash
+# FP-136: the preview's process may hang, crash or want more memory than it gets, be cancelled or stopped by the clock: the screen
+# goes on, tells it once, and the limits are checked all the same. It ends with the screen, like filters.
+. "$TEST_DIR/../lib/machine.sh"
+printf 'o1 while [1]\nG1 X1 F100\nG1 X0\no1 endwhile\nM2\n' > endless.ngc
+printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X5 F3000\nG1 X0\nG4 P2\nM2\n' > part.ngc
+{ printf 'G21 G90\nG0 X0 Y0 Z0\no1 repeat [300000]\nG1 X5 F3000\nG1 X0\no1 endrepeat\nG1 X4000\nM2\n'; } > beyond.ngc
+
+
+printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X[10*#<_hal[joint.0.homed]>] F3000\nM2\n' > pins.ngc
+screen_test mill operator_script.py
+cat machine/transcript
+echo "told in the log:"; grep -h '^axis: ' screen.err screen.log | sed 's#/.*/##' | sort | uniq -c
+/usr/bin/python3 "$TEST_DIR/killed.py" "$PWD"
+rm -rf machine home ./*.ngc var screen.log screen.err
