@@ -124,6 +124,9 @@ int read_ini(Setup &s)
     s.disable_fanuc_subs = ini.findBoolV("DISABLE_FANUC_STYLE_SUB", R, false);
     s.g64_default_tolerance = ini.findRealV("G64_DEFAULT_TOLERANCE", R, 0);
     s.g64_default_naive = ini.findRealV("G64_DEFAULT_NAIVETOLERANCE", R, 0);
+    const auto units = ini.findString("LINEAR_UNITS", "TRAJ");
+    s.metric_machine = !units ? -1 : *units == "inch" ? 0 : 1;
+    if (units) s.peck_g73 = s.peck_g83 = s.metric_machine ? 1.0 : 0.05; // a preview begins in inches on every machine
     s.peck_g73 = ini.findRealV("G73_PECK_CLEARANCE", R, s.peck_g73);
     s.peck_g83 = ini.findRealV("G83_PECK_CLEARANCE", R, s.peck_g83);
     s.orient_offset = ini.findRealV("ORIENT_OFFSET", R, 0);
@@ -145,8 +148,6 @@ int read_ini(Setup &s)
         s.log_file.reset(fopen(path.c_str(), "ae"));
         if (!s.log_file) fprintf(stderr, "[RS274NGC]LOG_FILE: can't write '%s': %s\n", path.c_str(), strerror(errno));
     }
-    const auto units = ini.findString("LINEAR_UNITS", "TRAJ");
-    s.metric_machine = !units ? -1 : *units == "inch" ? 0 : 1;
     for (int n = 0; n < 3; ++n) {
         const std::string section = std::string("AXIS_") + char('A' + n);
         s.wrapped[n] = ini.findBoolV("WRAPPED_ROTARY", section, false);

@@ -80,6 +80,12 @@ with tempfile.TemporaryDirectory() as d:
     points = gcode.arc_to_segments(arcs, 0., 1., 0., 0., 1, 2., *(0.,) * 6, 64)
     check(len(points) == 32 and points[-1] == (0., 1., 2.) + (0.,) * 6 and points[15][2] == 1., points)
 
+    open(d + "/mm.ini", "w").write("[TRAJ]\nLINEAR_UNITS = mm\n")
+    os.environ["INI_FILE_NAME"] = d + "/mm.ini"
+    heights = [round(25.4 * l[3], 6) for l in parse("G0 Z9\nG83 X1 Z-5 R2 Q4 F9\nM2\n", codes=["G21"])[1] if l[0] == "straight_traverse"]
+    del os.environ["INI_FILE_NAME"]
+    check(heights == [9, 9, 2, 2, -1, 2], f"the peck goes back as far as the machine's does: {heights}")
+
     class Raises(Canon):
         def straight_feed(self, *a): raise ValueError("x")
     try:
