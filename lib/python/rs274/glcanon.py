@@ -70,7 +70,7 @@ class GLCanon(Translated, ArcsToSegmentsMixin):
             self.suppress += 1
         elif command == "show":
             self.suppress -= 1
-        elif command in ("XY_Z_POS", "UV_Z_POS"):
+        elif command in ("XY_Z_POS", "UV_Z_POS") and len(parts) > 2:
             metric = self.state is not None and 210 in self.state.gcodes
             try:
                 height = float(value) / 25.4 if metric else float(value)

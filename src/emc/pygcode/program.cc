@@ -206,8 +206,8 @@ class PathCanon final : public PreviewCanon
         else if (command == "notify") {
             ++path.notify;
             const char *comma = strchr(rest, ',');
-            path.notify_message = comma ? std::string(comma + 1, strcspn(comma + 1, ","))
-                                        : "(AXIS,notify):" + std::to_string(path.notify);
+            path.notify_message = comma ? std::string(comma + 1, strcspn(comma + 1, ",")) : "";
+            if (path.notify_message.empty()) path.notify_message = "(AXIS,notify):" + std::to_string(path.notify);
         }
     }
     void on_message(const char *text) override

@@ -99,6 +99,14 @@ with tempfile.TemporaryDirectory() as d:
     except (KeyboardInterrupt, RuntimeError):
         c.calc_extents()
         check(c.max_extents[0] == 1, c.max_extents)
+    # A directive without its value changes nothing, an unreadable one has a default; canon and reader in C++ agree.
+    for text, want in (("XY_Z_POS", (0., 1.5, 0, "")), ("UV_Z_POS", (0., 1.5, 0, "")), ("UV_Z_POS,", (0., 30., 0, "")), ("XY_Z_POS,q", (5 / 25.4, 1.5, 0, "")),
+                       ("notify", (0., 1.5, 1, "(AXIS,notify):1")), ("notify,", (0., 1.5, 1, "(AXIS,notify):1")), ("notify,a,b", (0., 1.5, 1, "a"))):
+        _, c = preview(f"G1 X1 F9\n(AXIS,{text})\nM2\n", is_foam=1)
+        p = gcode.load(d + "/t.ngc", d + "/p2.var", ["G20"])
+        both = [(c.foam_z, c.foam_w, c.notify, c.notify_message),
+                (0. if p.foam_z is None else p.foam_z, 1.5 if p.foam_w is None else p.foam_w, p.notify, p.notify_message)]
+        check(both == [want] * 2, f"{text}: {both}")
     result, c = preview("(AXIS,XY_Z_POS,2)\n(AXIS,UV_Z_POS,x)\nG1 F9 X1 U2\nG21\n(AXIS,UV_Z_POS,25.4)\nM2\n", is_foam=1)
     check(c.foam_z == 2 and near([c.foam_w], [1.0]) and c.program_geometry.positions(1).shape == c.program_geometry.positions().shape, (c.foam_z, c.foam_w))
     check(c.min_extents[2] == 1 and c.max_extents[2] == 2, (c.min_extents, c.max_extents))
