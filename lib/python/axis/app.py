@@ -84,7 +84,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.timed = False       # a program ran at the last look
         self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
         self.user = {}
-        self.live_faults = set()     # of user_live_update, that were told
+        self.told_faults = set()     # of update cycles
         self.last_state = None
         self.build()
 

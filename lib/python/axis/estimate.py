@@ -153,7 +153,8 @@ class Estimate:
 
     def scale(self):
         """Until the times are found out anew: by the overrides' ratio."""
-        return self.times.rates.feed / self.wanted.feed if self.wanted and self.wanted.feed and self.times else 1.0
+        known = self.times.rates.feed if self.times else 0
+        return known / self.wanted.feed if known and self.wanted and self.wanted.feed else 1.0
 
     @property
     def remaining(self):

@@ -3,6 +3,7 @@
 
 import os
 import sys
+import tkinter as tk
 from types import SimpleNamespace
 
 import linuxcnc
@@ -35,9 +36,24 @@ class FollowPart:
         self.root.tk.call("update_state")
 
     def update(self):
-        """One update cycle, and the next one in CYCLE_TIME."""
-        if self.tick():
+        """One update cycle, and the next one in CYCLE_TIME, whatever fails in this one."""
+        alive = True
+        try:
+            alive = self.tick()
+        except tk.TclError:
+            if not self.root.children:       # the window is gone
+                return
+            self.failed_once(sys.exc_info()[1])
+        except Exception as e:
+            self.failed_once(e)
+        if alive:
             self.root.after(self.settings.cycle_ms, self.update)
+
+    def failed_once(self, error):
+        """As failed(), but what comes in each cycle is told once."""
+        if repr(error) not in self.told_faults:
+            self.told_faults.add(repr(error))
+            self.failed(error)
 
     def tick(self):
         """Shows the present status; False when the controller is gone and the screen ends."""
@@ -56,9 +72,7 @@ class FollowPart:
             try:
                 live()
             except Exception as e:
-                if repr(e) not in self.live_faults:      # told once, not in each cycle
-                    self.live_faults.add(repr(e))
-                    self.failed(e)
+                self.failed_once(e)
         return True
 
     def follow_status(self):
@@ -237,7 +251,12 @@ class FollowPart:
 
     def poll_errors(self):
         """Looks around now and every ERROR_POLL_MS."""
-        self.look_around()
+        try:
+            self.look_around()
+        except Exception as e:
+            if not self.root.children:       # the window is gone
+                return
+            self.failed_once(e)
         self.root.after(ERROR_POLL_MS, self.poll_errors)
 
     def look_around(self):

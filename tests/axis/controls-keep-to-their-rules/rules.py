@@ -23,6 +23,7 @@ def script(op):
     expressions(op)
     programs(op)
     combobox(op)
+    faults(op)
     sliders(op)
 
 
@@ -143,6 +144,30 @@ def combobox(op):
     op.root.tk.call("ttk::combobox::Unpost", box)
     op.wait(0.3)
     print("increments: list open", open_, "closed again, focus:", op.root.tk.call("focus"))
+
+
+def faults(op):
+    """The screen's own faults do not end its updates; no division by an override of 0."""
+    app = op.app
+    app.notifications.clear()
+    real, looks = app.show_readout, []
+
+    def fails():
+        looks.append(1)
+        raise ZeroDivisionError("on purpose")
+    app.show_readout = fails
+    while len(looks) < 3:
+        op.root.update()
+    app.show_readout = real
+    print("a fault in the update cycle: told", [m.split("\n")[0] for m in app.notifications.shown and op.messages()], "updates go on:", len(looks) >= 3)
+    app.set_override("feedrate", 0)
+    op.wait(0.2)
+    op.key("r", state=4)
+    app.estimate.wait()
+    app.set_override("feedrate", 100)
+    op.key("r")
+    op.idle()
+    print("opened at an override of 0, run at 100 %:", op.position(1))
 
 
 def sliders(op):

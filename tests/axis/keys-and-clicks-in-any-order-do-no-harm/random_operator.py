@@ -47,8 +47,10 @@ class Trouble:
     texts = []
 
     @classmethod
-    def print_exc(cls, *args, **more):
+    def print_exc(cls, *args, file=None, **more):
         cls.texts.append(traceback.format_exc())
+        if file is not None:             # the operator's own fault
+            print(cls.texts[-1], file=file)
 
 
 def script(op):
