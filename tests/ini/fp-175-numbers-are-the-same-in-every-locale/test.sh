@@ -13,7 +13,7 @@ setp scale.0.gain [TUNE]SCALE
 getp scale.0.gain
 setp scale.0.gain 120,0
 END
-halrun -i work/a.ini -f work/a.hal 2>&1 | grep -v -i "^Note\|realtime\|posix\|override" | sed "s,$PWD/,,"
+halrun -i work/a.ini -f work/a.hal 2>&1 | grep -v -i "^Note\|realtime\|posix\|override\|capabilit\|setcap" | sed "s,$PWD/,,"
 /usr/bin/python3 - <<'END'
 import locale
 locale.setlocale(locale.LC_ALL, "")

@@ -12,7 +12,7 @@ if [ "$(id -u)" = 0 ] && setpriv --reuid=nobody --regid=nogroup --clear-groups t
     setpriv --reuid=nobody --regid=nogroup --clear-groups env HOME="$out" linuxcnc -r "$out/machine/mill.ini" < /dev/null 2>&1; echo "status $?"
 else
     printf 'No display, no tty, trying to clean up other instance automatically\nCleaning up old LinuxCNC...\nLinuxCNC was started by root: end its process N as that user or as root\nstatus 1\n'
-fi | sed 's/process [0-9]*/process N/; /warning:/d'
+fi | sed 's/process [0-9][0-9]*/process N/; /warning:/d'
 for answer in n $'\4' y; do
     printf 'answer %q: ' "$answer"
     python3 ../lib/terminal.py "$answer"$'\n' linuxcnc -r -D true "$out/machine/mill.ini" | grep -o 'Not starting new\|Cleaning up old\|Traceback\|^status.*' | paste -sd ' '
