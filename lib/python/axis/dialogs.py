@@ -72,10 +72,14 @@ class Modal:
         self.window.after_idle(tkfit.onto_screen, self.window)
         self.window.wait_visibility()
         self.window.grab_set()
+        before = str(self.root.tk.call("focus"))
         (focus or self.window).focus_force()
-        self.root.wait_variable(self.done)
+        if not self.done.get():          # nobody was faster than the window
+            self.root.wait_variable(self.done)
         self.window.grab_release()
         self.window.destroy()
+        if self.root.winfo_ismapped():          # keys go where they went before, whatever the desktop does
+            self.root.tk.call("focus", "-force", before if before and int(self.root.tk.call("winfo", "exists", before)) else ".")
         return self.result
 
 
