@@ -2,22 +2,16 @@
 # 60 seeded programs with offsets, rotation, G92, tool lengths, both units and arcs in every plane. The reader in C++ and the canon in
 # Python find the same extents; the labels in the preview and the warnings before a run say the same, which is what the
 # extents with the tool say.
-import os
 import random
 import tempfile
 from types import SimpleNamespace
 
 import gcode
-import linuxcnc
-from axis import reading, settings
-from axis.compose import Composer
+import programs
 from axis.program import limit_warnings
+from programs import MILL, TOOLS, program
 from rs274.glcanon import GLCanon
 
-TOP = os.path.abspath("../../..")
-SHOWN = dict(show_program=True, show_rapids=True, program_alpha=False, show_live_plot=False, show_tool=False, show_extents=True,
-             show_offsets=False, show_machine_limits=False, grid_size=0.0, highlight_line=-1, metric=1, coord_type=0, display_type=0)
-TOOLS = [(n, 0.0, 0.0, 7.0 * n, *[0.0] * 6, 6.0, 0.0, 0.0, 0) for n in range(6)]
 NAMES = ("min_extents", "max_extents", "min_extents_notool", "max_extents_notool")
 
 
@@ -29,23 +23,7 @@ class Canon(GLCanon):
     def get_block_delete(self): return False
 
 
-def program(r):
-    unit = r.choice((1.0, 25.4))
-
-    def v(reach=60.0):
-        return f"{r.uniform(-reach, reach) / unit:.4f}"
-    lines = ["G21" if unit == 1.0 else "G20", f"G90 F{100 / unit:.3f} G17"]
-    for _ in range(r.randint(6, 14)):
-        lines.append(r.choice((
-            f"G0 X{v()} Y{v()} Z{v()}", f"G1 X{v()} Y{v()}", f"G1 Z{v()}", f"G10 L2 P1 X{v(20)} Y{v(20)} Z{v(20)} R{r.choice((0, 30, -45))}",
-            f"G92 X{v(20)} Z{v(20)}", "G92.1", f"G43 H{r.randint(1, 5)}", "G49", f"G53 G0 Z{v()}", f"G5{r.randint(4, 6)}",
-            f"G17 G1 X0 Y0\nG2 X0 Y0 I{v(30)} J{v(30)}", f"G18 G1 X0 Z0\nG3 X0 Z0 I{v(30)} K{v(30)} Y{v()}\nG17",
-            f"G19 G1 Y0 Z0\nG2 Y0 Z0 J{v(30)} K{v(30)}\nG17")))
-    return "\n".join(lines + ["G1 X0 Y0", "M2", ""])
-
-
-s = settings.read(linuxcnc.ini(TOP + "/configs/sim/mill/mill.ini"))
-composer = Composer(s, SimpleNamespace(**SHOWN))
+composer = programs.composer()
 wrong, warned, quiet = [], 0, 0
 with tempfile.TemporaryDirectory() as folder:
     path = folder + "/program.ngc"
@@ -53,7 +31,7 @@ with tempfile.TemporaryDirectory() as folder:
         r = random.Random(seed)
         with open(path, "w") as file:
             file.write(program(r))
-        loaded = gcode.load(path, folder + f"/{seed}.var", ["G21"], tools=TOOLS, axis_mask=7, linear_units=1.0)
+        loaded = programs.load(path, folder + f"/{seed}.var", composer)
         canon = Canon()
         canon.parameter_file = folder + f"/{seed}.canon.var"
         result, line = gcode.parse(path, canon, ["G21"])
@@ -70,8 +48,7 @@ with tempfile.TemporaryDirectory() as folder:
                                         g5x_index=1, rotation_xy=0.0)
         expected = [f"Program exceeds machine {name} on axis {letter}" for i, letter in enumerate("XYZ")
                     for name, over in (("minimum", 25.4 * canon.min_extents_notool[i] < -reach), ("maximum", 25.4 * canon.max_extents_notool[i] > reach)) if over]
-        told = limit_warnings(reading.Program.of(loaded, 60.0), s, composer.stat)
-        composer.set_program(reading.Program.of(loaded, 60.0), [reading.drawing(loaded, *place) for place in composer.places()])
+        told = limit_warnings(composer.program, MILL, composer.stat)
         flagged = 0
         for view in ("z", "x"):         # X and Y, then Z
             composer.camera.set_view(view)

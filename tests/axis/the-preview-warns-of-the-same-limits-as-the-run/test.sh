@@ -1,2 +1,2 @@
 #!/bin/bash
-exec /usr/bin/python3 -B check.py
+PYTHONPATH=../lib:$PYTHONPATH exec /usr/bin/python3 -B check.py

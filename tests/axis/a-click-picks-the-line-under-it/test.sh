@@ -1,0 +1,2 @@
+#!/bin/bash
+PYTHONPATH=../lib:$PYTHONPATH exec /usr/bin/python3 -B check.py
