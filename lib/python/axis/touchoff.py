@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The command of a touch-off, and the check of what was typed. No widgets here."""
 
+import math
 import os
+import re
 import tempfile
 
 import gcode
@@ -11,6 +13,7 @@ from .settings import MM_PER_INCH
 
 G8_ACTIVE = 80           # modal code: lathe radius mode
 G21_ACTIVE = 210
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)")      # of the G-code language
 
 
 def unit_text(letter, settings, stat, metric):
@@ -55,18 +58,15 @@ class Checker:
         wrong = brackets(text)
         if wrong:
             return None, wrong
-        try:
+        if NUMBER.fullmatch(text):
             return float(text), None
-        except ValueError:
-            pass
         with tempfile.NamedTemporaryFile("w", suffix=".ngc", delete=False) as f:
-            f.write(f"G91 G1 F100 X0\nX[{text}]\nM2\n")
+            f.write(f"G91 G0 Z0\nG1 F100 Z[{text}]\nM2\n")          # no rotation, radius or offset touches the length of this move
         try:
             result = gcode.load(f.name, self.file, ["G20"], ini=self.settings.ini_path)
         finally:
             os.unlink(f.name)
         if result.error:
             return None, result.error.splitlines()[0]
-        positions = memoryview(result.positions)
-        last = result.n_vertices - 1
-        return positions[last, 0] - positions[last - 1, 0] if last > 0 else 0.0, None
+        positions, last = memoryview(result.positions), result.n_vertices - 1
+        return math.copysign(result.cutting_length, positions[last, 2] - positions[last - 1, 2] if last > 0 else 0.0), None
