@@ -25,7 +25,7 @@ env -i HOME="$HOME" PATH="/usr/bin:/bin" KERF_INSTANCE="${KERF_INSTANCE:-inst}" 
 cd - > /dev/null || exit 1
 
 own=$root/own
-mkdir -p "$own"/{hal,component,machine,headers,python,stream,haltcl,twopass}
+mkdir -p "$own"/{hal,component,machine,remote,headers,python,stream,haltcl,twopass}
 printf 'loadrt and2 count=2\nnet x and2.0.out => and2.1.in0\nlist sig\n' > "$own/hal/test.hal"
 printf 'x \n' > "$own/hal/expected"
 cat > "$own/component/test.sh" <<'END'
@@ -70,6 +70,16 @@ END
 chmod +x "$own/machine/test-ui.py"
 printf 'linuxcnc -r mill.ini | grep "x is"\nexit ${PIPESTATUS[0]}\n' > "$own/machine/test.sh"
 echo "x is 1.5" > "$own/machine/expected"
+cp "$own"/machine/mill* "$own"/machine/*.hal "$own/remote/"; port=$((20000 + $$ % 9000))
+sed -i "s,^DISPLAY = .*,DISPLAY = linuxcncrsh --port $port," "$own/remote/mill.ini"
+cat > "$own/remote/test.sh" <<END
+linuxcnc -r mill.ini > log 2>&1 &
+until nc -z localhost $port; do sleep 0.1; done
+(echo hello EMC me 1.0; echo set enable EMCTOO; echo set wait_mode done; echo set estop off; echo set machine on; echo get machine; echo shutdown) |
+    nc localhost $port | tr -d '\r' | grep -i '^machine'
+wait
+END
+echo "MACHINE ON" > "$own/remote/expected"
 cat > "$own/headers/test.sh" <<'END'
 cat > x.c <<END2
 #include "hal.h"
@@ -105,7 +115,7 @@ grep -E 'XFAIL|SHMERR|left running' "$root/errors" | sed "s,$root/,,"
 # the launcher and runtests find it all the same.
 [ "$(id -u)" = 0 ] || { printf 'down ran\nstatus 0\nrtapi_app (process N) died unexpectedly; stopping everything\nstatus 1\nleft running: rtapi_app\n'; exit; }
 chmod 755 "$root"; chmod 4755 "$root/usr/bin/rtapi_app"; cd "$root" || exit 1
-rm -rf "${own:?}"/{component,headers,stream,haltcl,twopass,python,hal}; mkdir "$own/left"
+rm -rf "${own:?}"/{component,remote,headers,stream,haltcl,twopass,python,hal}; mkdir "$own/left"
 printf '%s start\nsleep 0\n' '${REALTIME}' > "$own/left/test.sh"; : > "$own/left/expected"
 cat > "$own/as-user" <<'END2'
 cd "$own/machine"
