@@ -55,6 +55,12 @@ class Recorded:
         return [kerf_raster.Drawing(r.positions(plane), r.kinds, r.lines, "XYZ") for plane in range(planes)]
 
 
+def still_layer(scene, matrix):
+    """What the layer is made of that stays while only the tool, the plot and the texts change."""
+    items = [(np.asarray(i.vertices, np.float32).tobytes(), bytes(np.asarray(i.kinds, np.uint8)), i.colour, i.width) for i in (*scene.before, *scene.after)]
+    return matrix, scene.back, list(scene.drawings), scene.palettes, scene.selected, scene.selected_spans, scene.labels, items
+
+
 class GlCanonDraw:
     """The hooks get_*() have defaults; a widget says activate, deactivate, swapbuffers, winfo_width and winfo_height.
 
@@ -72,7 +78,7 @@ class GlCanonDraw:
         self.highlight_line = None
         self.current_line = 0
         self.cone_basesize = CONE_BASESIZE
-        self._preview_renderer = self._preview_scenes = self._preview_shown = None
+        self._preview_renderer = self._preview_scenes = self._preview_shown = self._preview_still = None
         self.init_glcanondraw()
 
     def init_glcanondraw(self, trajcoordinates="XYZABCUVW", kinsmodule="trivkins", msg=""):
@@ -312,11 +318,14 @@ class GlCanonDraw:
             matrix = scenes.camera.matrix(*size)
             scenes.compose(*size, matrix)
             scenes.compose_live(*size, matrix)
-            self._preview_renderer.resize(*size)
-            self._preview_renderer.draw_still(scenes.scene, matrix, scenes.text_px, exact=True)
-            self._preview_renderer.draw_frame(scenes.scene, matrix)
+            renderer, scene = self._preview_renderer, scenes.scene
+            still = still_layer(scene, matrix)
+            if renderer.resize(*size) or still != self._preview_still or not renderer.draw_frame(scene, matrix):
+                self._preview_still = still
+                renderer.draw_still(scene, matrix, scenes.text_px, exact=True)
+                renderer.draw_frame(scene, matrix)
             self.user_plot()
-            self._preview_renderer.present()
+            renderer.present()
             self.swapbuffers()
         finally:
             self.deactivate()

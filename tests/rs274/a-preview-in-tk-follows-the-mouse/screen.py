@@ -68,6 +68,14 @@ print("farther:", camera.size > before[1])
 event("<ButtonPress-2>", x=100, y=100)
 event("<B2-Motion>", x=120, y=110)
 print("turned:", camera.view == "", (camera.lat, camera.lon))
+renderer, drawn = view._preview_renderer, []
+still = renderer.draw_still
+renderer.draw_still = lambda *a, **k: drawn.append(1) or still(*a, **k)
+before = renderer.pixels().copy()
+for change in (lambda: None, lambda: None, lambda: view.zoom(0.5), lambda: None):
+    change()
+    view.tkRedraw()
+print("drawn anew:", len(drawn), "another picture:", bool((before != renderer.pixels()).any()))
 view.fit()
 print("fits again:", [round(v, 3) for v in camera.centre])
 root.destroy()
