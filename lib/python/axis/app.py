@@ -620,7 +620,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         for thread in (self.logging, self.jogger.guard):  # one that sleeps at Python's end would end it by abort()
             if thread.is_alive():
                 thread.join(1.0)
-        self.estimate.cancel()
+        self.estimate.cancel(wait=True)
         self.loader.close()
         self.recorder.close()
         self.end_children()

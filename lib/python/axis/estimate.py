@@ -121,13 +121,13 @@ class Estimate:
         self.reader.fresh = fresh
         self.reader.start()
 
-    def cancel(self):
+    def cancel(self, wait=False):
         """Ends the process; what is known stays."""
         if self.child and self.child.poll() is None:
             self.child.kill()
-        if self.reader:
+        if self.reader and wait:
             self.reader.join()
-        self.child = self.reader = None
+        self.child = self.reader = None          # a reader ends with its process
 
     def wait(self):
         """Until the times are known."""

@@ -10,14 +10,16 @@ $(foreach s,mdi schedrmt linuxcnclcd axis-remote pyvcp pyvcp_demo mtconnect-agen
 $(eval $(call program,tool_watch,src/emc/usr_intf/tool_watch.cc $(CLIENT_SOURCES),nml linuxcncini tooldata linuxcnchal, \
     -Isrc/libnml -Isrc/emc/nml -Isrc/emc/task -Isrc/emc/usr_intf))
 
-.PHONY: bench-axis bench-clients bench-preview
+.PHONY: bench-axis bench-axis-loading bench-clients bench-preview
 bench-axis: all
 	bash -c '. scripts/rip-environment && KERF_INSTANCE=axisbench exec /usr/bin/python3 src/emc/usr_intf/bench/axis_bench.py'
+bench-axis-loading: all
+	bash -c '. scripts/rip-environment && KERF_INSTANCE=axisbench exec /usr/bin/python3 src/emc/usr_intf/bench/axis_load_bench.py'
 bench-clients: all
 	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/clients_bench.py'
 bench-preview: all
 	bash -c '. scripts/rip-environment && exec /usr/bin/python3 src/emc/usr_intf/bench/preview_bench.py'
-BENCHES += bench-axis bench-clients bench-preview
+BENCHES += bench-axis bench-axis-loading bench-clients bench-preview
 
 # A day of the machine (SOAK_HOURS) in virtual time, about an hour: not among the benches of every day. A long run tells its looks in
 # SOAK_LOG and ends with a figure after SOAK_WALL_S seconds of wall time.
