@@ -1,2 +1,3 @@
 #!/bin/bash
-exec ../lib/machine-test script.py "$@"
+../lib/machine-test script.py DISPLAY.ARCDIVISION=256 "$@"
+../lib/machine-test wrapped.py -machine xyza AXIS_A.WRAPPED_ROTARY=1
