@@ -419,7 +419,7 @@ proc ::axis::build_mdi {f} {
     bind $f.command <Control-Key-m> {clear_mdi_history; break}
     bind $f.command <Control-Key-h> {mdi_history_hist2clip; break}
     bind $f.command <Control-Shift-Key-H> {mdi_history_clip2hist; break}
-    bind $f.history <ButtonRelease-1> {mdi_history_butt_1 %x %y}
+    bind $f.history <ButtonRelease-1> "mdi_history_butt_1 %x %y; focus $f.command"      ;# its keys work on what was chosen
     bind $f.history <Double-Button-1> {mdi_history_double_butt_1 %x %y; break}
 }
 

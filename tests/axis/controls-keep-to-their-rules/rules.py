@@ -22,6 +22,7 @@ def script(op):
     options(op)
     expressions(op)
     programs(op)
+    history(op)
     combobox(op)
     faults(op)
     sliders(op)
@@ -131,6 +132,31 @@ def programs(op):
     print("lines before the start are grey:", [str(i) for i in app.text.tag_ranges("ignored")], end=" ")
     op.key("r", state=4)
     print("reloaded:", [str(i) for i in app.text.tag_ranges("ignored")])
+
+
+def history(op):
+    """The list of MDI lines: clicks, then keys of the entry."""
+    app, tcl, box = op.app, op.root.tk, ".pane.top.tabs.fmdi.history"
+    app.TclCommands.clear_mdi_history()
+    op.key("F5")
+    for text in ("G0 X1", "G0 X2", "G0 X2", "G0 X3"):
+        op.type(text)
+        op.idle()
+
+    def click(row, first="<Button-1>", times=1):
+        x, y, _, high = (int(v) for v in tcl.splitlist(tcl.call(box, "bbox", row)))
+        for event in (first, "<ButtonRelease-1>") * times:
+            tcl.call("event", "generate", box, event, "-x", x + 3, "-y", y + high // 2)
+        op.wait(1.0 if times == 1 else 0.1)
+        return app.vars.mdi_command.get()
+    print("history:", tcl.splitlist(tcl.call(box, "get", 0, "end")), "clicked:", click(0), "two:", repr(click(1, "<Shift-Button-1>")), end=" ")
+    op.key("h", app.root.focus_get(), 4)
+    print("copied:", repr(op.root.clipboard_get()), "the empty line:", repr(click(3)), "again:", click(1), end=" ")
+    op.key("Up", app.root.focus_get())
+    print("Up:", app.vars.mdi_command.get(), "double:", repr(click(0, times=2)), end=" ")
+    op.idle()
+    print("at", op.position(0), tcl.splitlist(tcl.call(box, "get", 0, "end")))
+    op.key("F3")
 
 
 def combobox(op):
