@@ -216,6 +216,13 @@ def create_vcp(master, component=None, path=None):
             if gone(master):
                 return
             raise
-        master.after(POLL_MS, poll)
+        waiting[:] = [master.after(POLL_MS, poll)]
+
+    def ended(event):
+        """The panel goes: nothing is looked at any more."""
+        if event.widget is master and waiting:
+            master.after_cancel(waiting.pop())
+    waiting = []
     poll()
+    master.bind("<Destroy>", ended, "+")
     return component
