@@ -35,8 +35,10 @@ for number, path in enumerate(sorted(Path(".").glob("*.xml"))):
             name = monkey.random.choice(inputs)
             hal.set_p(name, monkey.random.choice(VALUES[own[name]["type"]]))
         for widget in (root, *monkey.widgets(root)):
-            if hasattr(widget, "follow"):
-                widget.follow()
+            try:
+                getattr(widget, "follow", lambda: None)()
+            except Exception as error:
+                monkey.trouble.append(f"{widget}: {error!r}")
     monkey.tick = turn
     trouble += [f"{path}: {what}" for what in monkey.run(ACTIONS)]
     done += len(monkey.done)
