@@ -592,10 +592,17 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.wait_for_children(self.postgui)
         demo = initial is None
         if demo:
-            initial = os.path.join(os.path.dirname(__file__), "demo-lathe.ngc" if self.settings.lathe else "demo-mill.ngc")
+            initial = self.demo()
         wanted = initial.strip('"')          # OPEN_FILE = "" is none
         if wanted:
             self.root.after(50, lambda: self.open_file_guts(self.beside_ini(wanted), addrecent=not demo))
+
+    def demo(self):
+        """A program to look at for this machine, or "" where none fits its axes."""
+        for name, axes in (("lathe", "XZ"), ("mill", "XYZ")):
+            if set(axes) <= set(self.settings.axes) and self.settings.lathe == (name == "lathe"):
+                return os.path.join(os.path.dirname(__file__), f"demo-{name}.ngc")
+        return ""
 
     # What other programs ask for (remote.py).
 
@@ -658,7 +665,7 @@ def main(argv):
     try:
         app.start(os.path.abspath(rest[0]) if rest else None)
         root.mainloop()
-    except KeyboardInterrupt:        # the launcher ends the session
+    except (KeyboardInterrupt, SystemExit):  # the launcher ends the session; a question was open when the screen was closed
         pass
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # one is enough: nothing interrupts the end

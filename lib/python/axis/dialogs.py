@@ -49,6 +49,14 @@ def long_text(window, text):
     box.pack(fill="both", expand=True, pady=8)
 
 
+def closed(root):
+    """The window and its interpreter are gone."""
+    try:
+        return not root.winfo_exists()
+    except tk.TclError:
+        return True
+
+
 class Modal:
     """A window that waits for its answer."""
 
@@ -67,19 +75,26 @@ class Modal:
         self.done.set(True)
 
     def wait(self, focus=None):
-        centre(self.window, self.root)
-        self.window.deiconify()
-        self.window.after_idle(tkfit.onto_screen, self.window)
-        self.window.wait_visibility()
-        self.window.grab_set()
-        before = str(self.root.tk.call("focus"))
-        (focus or self.window).focus_force()
-        if not self.done.get():          # nobody was faster than the window
-            self.root.wait_variable(self.done)
-        self.window.grab_release()
-        self.window.destroy()
-        if self.root.winfo_ismapped():          # keys go where they went before, whatever the desktop does
-            self.root.tk.call("focus", "-force", before if before and int(self.root.tk.call("winfo", "exists", before)) else ".")
+        """The answer. SystemExit: the screen was closed meanwhile."""
+        self.window.bind("<Destroy>", lambda event: self.done.set(True), add=True)
+        try:
+            centre(self.window, self.root)
+            self.window.deiconify()
+            self.window.after_idle(tkfit.onto_screen, self.window)
+            self.window.wait_visibility()
+            self.window.grab_set()
+            before = str(self.root.tk.call("focus"))
+            (focus or self.window).focus_force()
+            if not self.done.get():          # nobody was faster than the window
+                self.root.wait_variable(self.done)
+            self.window.grab_release()
+            self.window.destroy()
+            if self.root.winfo_ismapped():          # keys go where they went before, whatever the desktop does
+                self.root.tk.call("focus", "-force", before if before and int(self.root.tk.call("winfo", "exists", before)) else ".")
+        except tk.TclError:
+            if closed(self.root):
+                raise SystemExit from None
+            raise
         return self.result
 
 

@@ -62,8 +62,9 @@ class OpeningPart:
             self.loaded_file, self.shown_file, self.is_filtered = path, shown, through_filter
             self.load_shown()
         finally:
-            self.end_progress()
-            self.root.tk.call("set_mode_from_tab")
+            if not dialogs.closed(self.root):
+                self.end_progress()
+                self.root.tk.call("set_mode_from_tab")
 
     def open_pipe(self, command):
         """Opens what a shell command writes to its standard output."""

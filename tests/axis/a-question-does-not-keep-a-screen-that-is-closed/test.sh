@@ -1,0 +1,19 @@
+#!/bin/bash
+# AXIS is closed from outside while it asks something (here: tells a mistake in the program): it ends, and with it the machine.
+# A machine whose axes the demonstration does not have begins without one.
+. "$TEST_DIR/../lib/machine.sh"
+cat > closing.sh <<'SH'
+HOME=$PWD/home linuxcnc -r machine/mill.ini "$PWD/bad.ngc" > screen.log 2> screen.err < /dev/null & machine=$!
+timeout 30 xdotool search --sync --onlyvisible --class '^Dialog$' > /dev/null || echo "no question"
+axis-remote --quit
+timeout 30 tail --pid=$machine -f /dev/null || { echo "it goes on"; kill $machine; }
+wait $machine; echo "closed: $?"
+SH
+echo 'G1 Q' > bad.ngc
+cp -r "$top/configs/sim/mill" machine; mkdir home
+"$top/tests/lib/with-display" bash closing.sh
+grep -i -A8 traceback screen.log screen.err
+ls home/.axis_reports 2> /dev/null
+screen_test mill script.py
+cat machine/transcript
+rm -rf machine home bad.ngc closing.sh screen.log screen.err
