@@ -28,6 +28,14 @@ for tool in "latency-test --nox 1ms" "latency-histogram --nox" "latency-plot --n
     realtime status > /dev/null || echo "no session is left"
 done
 cat home/.latency
+echo "# the panel dies"
+rm home/.latency
+latency-test --nox 1ms > ended 2>&1 & pid=$!
+until grep -q interval ended; do sleep 0.1; done
+kill -KILL $(halcmd show comp lat | awk '$3 == "lat" {print $4}')
+wait $pid
+cat home/.latency
+realtime status > /dev/null || echo "no session is left"
 echo "# while another session runs"
 realtime start 2> /dev/null
 run latency-test --nox --seconds 1 1ms

@@ -17,10 +17,10 @@ ROWS = (("servo", "s"), ("base", "b"))
 
 
 class Worst:
-    """Largest interval and jitter seen of each thread."""
+    """Largest interval and jitter seen of each thread. path: a file that has the largest jitter at any moment."""
 
-    def __init__(self, letters: str):
-        self.letters = letters
+    def __init__(self, letters: str, path: Path | None = None):
+        self.letters, self.path, self.kept = letters, path, -1
         self.reset()
 
     def reset(self):
@@ -31,6 +31,10 @@ class Worst:
         for letter in self.letters:
             self.interval[letter] = max(self.interval[letter], component[letter + "l"])
             self.jitter[letter] = max(self.jitter[letter], component[letter + "j"])
+        largest = max(self.jitter.values())
+        if self.path and largest > self.kept:
+            self.path.write_text(f"{largest}\n")
+            self.kept = largest
 
 
 def make_component(hal):
@@ -112,7 +116,7 @@ def main(arguments: list[str]) -> int:
     import hal
     clock.join("lat")
     names, periods = {"s": "servo", "b": "base"}, {"s": o.servo_ns, "b": o.base_ns}
-    worst = Worst("bs" if o.base_ns else "s")
+    worst = Worst("bs" if o.base_ns else "s", o.worst)
     component = make_component(hal)
     try:
         if o.nox:
@@ -122,8 +126,6 @@ def main(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         pass
     finally:
-        if o.worst:
-            o.worst.write_text(f"{max(worst.jitter.values())}\n")
         component.exit()
         clock.leave()
     return 0
