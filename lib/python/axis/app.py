@@ -61,7 +61,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.vars = Variables(root)
         self.translate = language._
         self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
-        self.loaded_file = self.shown_file = None
+        self.loaded_file = self.shown_file = self.kept = None    # what the operator chose; what task opens; a copy of that
         self.is_filtered = self.loading = self.cancel_loading = False
         self.disk_state, self.changed_on_disk = None, False
         self.limit_path = self.limit_conditions = None   # what the limits are checked against, under which conditions it was read

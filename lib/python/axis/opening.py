@@ -21,6 +21,7 @@ LONGEST_RESTORE_S = 120.0
 
 BESIDE_S = 0.02              # the screen looks around so often while something long is done
 LONGEST_OPEN_S = 5.0         # of task
+OPEN_TRIES = 3               # while somebody writes the file
 
 
 class OpeningPart:
@@ -84,18 +85,21 @@ class OpeningPart:
             self.open_file_guts(path, addrecent=False)
 
     def load_shown(self):
-        """Task, text and preview take the same program; a change on disk meanwhile is told."""
+        """Task, text and preview take the same program (FP-130); a change on disk meanwhile is told."""
         c = self.command
-        self.disk_state, self.changed_on_disk = self.state_on_disk(), False
         self.user["loaded_file"] = self.loaded_file
         if self.manual_ok():
             self.ensure_mode(linuxcnc.MODE_MANUAL)
         c.task_plan_synch()
         self.until_done()
-        c.program_open(self.shown_file)
-        self.until_done()
-        kept = self.beside(self.loader.kept_text, self.shown_file)
-        self.code.load(kept, self.beside(line_starts, kept))
+        for _ in range(OPEN_TRIES):              # what is copied is what task takes: the file does not change from the one to the other
+            self.disk_state, self.changed_on_disk = self.state_on_disk(), False
+            self.kept = self.beside(self.loader.kept_text, self.shown_file)
+            c.program_open(self.shown_file)
+            self.until_done()
+            if self.state_on_disk() == self.disk_state:
+                break
+        self.code.load(self.kept, self.beside(line_starts, self.kept))
         self.read_preview()
         self.show_title()
 
@@ -107,7 +111,7 @@ class OpeningPart:
 
     def refresh_preview(self):
         """The preview alone is read anew; the view stays."""
-        if not self.loaded_file or self.loading or self.state_on_disk() != self.disk_state:
+        if not self.loaded_file or self.loading:
             return
         centre, size = list(self.preview.camera.centre), self.preview.camera.size
         self.write_parameters()
@@ -162,8 +166,10 @@ class OpeningPart:
         self.stat.poll()
         block_delete, total = bool(self.vars.block_delete.get()), max(1, self.code.total)
         conditions = self.loader.conditions(self.shown_file, self.stat, block_delete)
-        reading = self.loader.read(self.shown_file, self.stat, block_delete, places, seconds)
+        reading = self.loader.read(self.kept, self.stat, block_delete, places, seconds)
         path, drawings = self.beside(reading.result, lambda line: self.progress(percent + (100 - percent) * min(1, line / total)))
+        if path.fault:                           # is told of the file that the operator knows
+            path.fault = {name: value.replace(self.kept, self.shown_file) if isinstance(value, str) else value for name, value in path.fault.items()}
         self.limit_path, self.limit_conditions = path, conditions
         self.limits_final = not path.aborted or path.late and seconds >= LONGEST_PREVIEW_S or bool(path.failed) and not places
         return path, drawings
@@ -174,7 +180,7 @@ class OpeningPart:
         self.stat.poll()
         if not self.shown_file or self.stat.interp_state != linuxcnc.INTERP_IDLE:
             return True
-        if self.changed_on_disk or self.limits_final and self.limit_conditions == self.loader.conditions(self.shown_file, self.stat, bool(self.vars.block_delete.get())):
+        if self.limits_final and self.limit_conditions == self.loader.conditions(self.shown_file, self.stat, bool(self.vars.block_delete.get())):
             return True
         self.write_parameters()
         self.begin_progress()
@@ -187,7 +193,7 @@ class OpeningPart:
     def estimate_time(self):
         """The run time is found out anew, from where the machine stands."""
         if self.shown_file:
-            self.estimate.start(self.shown_file, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()), Rates.of(self.stat))
+            self.estimate.start(self.kept, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()), Rates.of(self.stat))
 
     def state_on_disk(self):
         """What tells a change of the opened file, or None when it is gone."""

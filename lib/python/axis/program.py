@@ -109,8 +109,12 @@ class Loader:
         return target
 
     def kept_text(self, path):
-        """A copy that the text is shown from: an editor may change the file meanwhile."""
-        target = os.path.join(self.folder, "text.ngc")
+        """A copy that text, preview and estimate are made from: an editor may change the file meanwhile."""
+        folder = os.path.join(self.folder, "kept")
+        os.makedirs(folder, exist_ok=True)
+        target = os.path.join(folder, os.path.basename(path))
+        for old in os.listdir(folder):
+            os.remove(os.path.join(folder, old))
         shutil.copyfile(path, target)
         return target
 

@@ -90,6 +90,19 @@ def script(op):
     show("only a box")
     run()
     app.settings.real = real
+
+    def edited(pid):
+        with open(os.path.join(here, "part.ngc")) as f:
+            text = f.read()
+        with open(os.path.join(here, "part.ngc"), "w") as f:
+            f.write(text.replace("X5", "X70"))
+    open_while("part.ngc", edited)
+    op.wait(0.5)
+    app.refresh_preview()
+    print("FP-130: edited while it is read: text", app.line_text(3), "preview to X", round(25.4 * app.preview.program.extents[1][0], 3),
+          "told:", [m.split(" on disk")[0] for m in op.messages()])
+    op.key("r", state=4)
+    print("FP-130: reloaded: text", app.line_text(3), "preview to X", round(25.4 * app.preview.program.extents[1][0], 3))
     open_while("part.ngc")
     op.key("F5")
     op.type("G10 L2 P1 X-3000")

@@ -1,6 +1,7 @@
 #!/bin/bash
-# FP-136: the preview's process may hang, crash or want more memory than it gets, be cancelled or stopped by the clock: the screen
+# FP-130, FP-136: the preview's process may hang, crash or want more memory than it gets, be cancelled or stopped by the clock: the screen
 # goes on, tells it once, and the limits are checked all the same. It ends with the screen, like filters.
+# What is shown is what task opened, also when somebody edits the file meanwhile.
 . "$TEST_DIR/../lib/machine.sh"
 printf 'o1 while [1]\nG1 X1 F100\nG1 X0\no1 endwhile\nM2\n' > endless.ngc
 printf 'G21 G90\nG0 X0 Y0 Z0\nG1 X5 F3000\nG1 X0\nG4 P2\nM2\n' > part.ngc
