@@ -90,6 +90,10 @@ proc ::axis::renew_dots {} {
     $w configure -background $::axis::colour(face) -selectcolor $::axis::colour(face)
     update idletasks
     destroy $w
+    set f .pane.top.tabs.fmanual
+    foreach drawn [concat [winfo children .toolbar] [winfo children $f.spindlef] [winfo children $f.axes] [winfo children $f.joints]] {
+        $drawn configure -background [$drawn cget -background]
+    }
 }
 
 proc load_image {name} { return [::axis::icon $name] }

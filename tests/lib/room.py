@@ -24,6 +24,7 @@ CLASSIC = ("Label", "Button", "Checkbutton", "Radiobutton", "Menubutton", "Messa
 THEMED = ("TLabel", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton")
 FIELDS = ("Entry", "Spinbox", "TEntry", "TSpinbox", "TCombobox")
 PRESSED = ("Button", "Checkbutton", "Radiobutton", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton", "TCombobox", "TEntry", "Entry", "Scale", "TScale")
+FEW_LINES = 6               # of a text that scrolls
 MORE = 0.4                  # of a text in a language with long words
 NUMBER_DIGITS = 14          # what is shorter than this in an entry is a number or a name that must be seen whole
 
@@ -301,6 +302,9 @@ class Look:
         used = int(str(self.call(path, "count", "-update", "-ypixels", "1.0", "end")) or 0) if height > 1 else 0
         if not down and used > height + 2:
             self.tell(path, "cut", f"text of {used} pixels in {height}")
+        line = int(self.call("font", "metrics", self.font(path, "Text"), "-linespace"))
+        if down and used > height and height < FEW_LINES * line and self.number(str(self.call("winfo", "toplevel", path)), "height") < self.screen[1] / 2:
+            self.tell(path, "hidden", f"{height // line} lines in sight, and the screen has room for more")
         if not across and self.option(path, "wrap") == "none":
             seen = self.listed(self.call(path, "xview"))
             if float(str(seen[1])) - float(str(seen[0])) < 0.999:

@@ -259,13 +259,13 @@ class WindowPart(LooksPart):
         return self.translate("Joint %d (Sequence: %s)") % (j, f"{sequence.strip():>2s}{sync}")
 
     def fill_windows(self):
-        from .help import ABOUT, help1, help2
+        from .help import ABOUT, SHIFT, help1, help2
         about, keys = self.widgets.about_window, self.widgets.help_window
         tk.Label(about, text=self.translate(ABOUT) % Tree.find().version(), justify="left", padx=16, pady=12).pack()
         tk.Button(about, text=self.translate("OK"), width=10, command=about.withdraw).pack(pady=8)
         for column, rows in enumerate((help1, help2)):
             for row, (key, text) in enumerate(rows):
-                tk.Label(keys, text=key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(16, 6))
+                tk.Label(keys, text=self.translate(key) if key == SHIFT else key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(16, 6))
                 tk.Label(keys, text=text and self.translate(text), anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 16))
 
     def bind_text(self):

@@ -132,6 +132,7 @@ class Fit:
         window.update_idletasks()
         wanted = asked(window)
         if share_of(window) < 1:
+            window.before_giving_way = wanted           # for tkstyle.centre(), should it come later
             give_way(window)
             enlarge(window, wanted)
         for _ in range(STEPS):

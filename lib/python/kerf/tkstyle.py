@@ -170,6 +170,7 @@ def _themed(theme, colours, style, letters):
 
 def centre(window, width, height, minimum=None):
     """Places a window in the middle of the screen: pixels, at most what the screen has."""
+    width, height = map(max, (width, height), getattr(window, "before_giving_way", (0, 0)))
     width, height = min(width, window.winfo_screenwidth()), min(height, window.winfo_screenheight() - 40)
     x, y = (window.winfo_screenwidth() - width) // 2, max(0, (window.winfo_screenheight() - height) // 2 - 20)
     window.geometry(f"{width}x{height}+{x}+{y}")

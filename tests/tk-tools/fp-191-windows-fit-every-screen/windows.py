@@ -2,6 +2,8 @@
 
 windows.py untranslated: their texts that come from no catalogue.
 """
+import array
+import math
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -71,7 +73,11 @@ def scope(root):
     channel.kind, channel.name, channel.type, channel.enabled = "pin", "siggen.0.sine", scope_settings.FLOAT, True
     settings.selected = settings.trigger.source = 1
     style = tkstyle.apply(root)
-    screen.Screen(root, settings, acquire.Offline(), style)
+    window = screen.Screen(root, settings, acquire.Offline(), style)
+    # A record with figures below its state: neither lies over the other.
+    window.record = acquire.Record(1000000, 500, 1000, {1: array.array("d", (1e5 * math.sin(n / 30) for n in range(1000)))})
+    window.state_text = lambda: screen._("WAITING FOR TRIGGER")
+    window.changed()
     dialogs.RateDialog(root, settings, 32000, True, None, None)
     dialogs.OffsetDialog(root, 1, channel, None)
 

@@ -87,7 +87,10 @@ class Display(tk.Canvas):
         self._draw_readout()
         text = self._owner.state_text()
         if text:
-            self.create_text(width - 8, 8, anchor="ne", text=text, fill=WORDS, font="TkDefaultFont", tags="state")
+            state = self.create_text(width - 8, 8, anchor="ne", text=text, fill=WORDS, font="TkDefaultFont", tags="state", width=width - 16)
+            figures = self.bbox("measured")
+            if figures and figures[2] > self.bbox(state)[0] - 8:        # no room beside them
+                self.move(state, 0, figures[3] - 4)
 
     def _draw_trace(self, number, h):
         record, channel = self._owner.record, self._owner.settings.channel(number)
@@ -145,7 +148,7 @@ class Display(tk.Canvas):
             text = _("least %.6g  greatest %.6g  p-p %.6g  mean %.6g") % (low, high, high - low, mean)
             if period:
                 text += "  f " + geo.engineering(1 / (period * h.period), "Hz")
-            self.create_text(8, 8, anchor="nw", text=text, fill=COLOURS[number - 1], font="TkFixedFont", tags="measured")
+            self.create_text(8, 8, anchor="nw", text=text, fill=COLOURS[number - 1], font="TkFixedFont", tags="measured", width=width - 16)
 
     # ---- The mouse
 
@@ -261,7 +264,7 @@ class Display(tk.Canvas):
         if other := self._mark is not None and self.readout(self._column(self.horizontal(), self._mark)):
             far = found[0] - other[0]
             text += "\n" + _("from the mark: %.6g s (%s), %.6g") % (far, geo.engineering(1 / abs(far), "Hz") if far else "----", found[1] - other[1])
-        self.create_text(8, self.size[1] - 8, anchor="sw", text=text, fill=colour, font="TkFixedFont", tags="readout")
+        self.create_text(8, self.size[1] - 8, anchor="sw", text=text, fill=colour, font="TkFixedFont", tags="readout", width=self.size[0] - 16)
 
 
 def _spans(points, width):
