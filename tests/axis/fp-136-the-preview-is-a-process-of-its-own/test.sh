@@ -13,4 +13,4 @@ screen_test mill operator_script.py
 cat machine/transcript
 echo "told in the log:"; grep -h '^axis: ' screen.err screen.log | sed 's#/.*/##' | sort | uniq -c
 /usr/bin/python3 "$TEST_DIR/killed.py" "$PWD"
-rm -rf machine home ./*.ngc var screen.log screen.err
+rm -rf machine home ./*.ngc var* screen.log screen.err
