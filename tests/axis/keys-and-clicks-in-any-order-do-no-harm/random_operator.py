@@ -219,9 +219,14 @@ def script(op):
 
 def end_of_task(op, act, rng, log):
     """Task is killed: the operator goes on for a while, then the screen ends by itself, with no traceback. Does not return."""
-    ended = []                   # the launcher ends the screen
-    for end in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(end, lambda *_: ended.append(True))
+    ended, armed = [], [True]
+
+    def end(*_):                 # the launcher ends the screen, also one that waits for task
+        ended.append(True)
+        if armed:
+            raise KeyboardInterrupt
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
     session.kill("milltask")
     try:
         for _ in range(500):
@@ -232,9 +237,11 @@ def end_of_task(op, act, rng, log):
             clock.sleep(0.02)
         else:
             print("the screen did not end")
-    except lib.tk.TclError:      # the screen has ended itself
-        pass
+        armed.clear()
+    except (KeyboardInterrupt, lib.tk.TclError):     # or the screen has ended itself
+        armed.clear()
     except Exception:
+        armed.clear()
         print(traceback.format_exc(), log[-6:])
     for text in Trouble.texts + op.trouble:
         print(text)
