@@ -219,12 +219,12 @@ def script(op):
 
 def end_of_task(op, act, rng, log):
     """Task is killed: the operator goes on for a while, then the screen ends by itself, with no traceback. Does not return."""
-    ended, armed = [], [True]
-
-    def end(*_):                 # the launcher ends the screen, also one that waits for task
-        ended.append(True)
-        if armed:
-            raise KeyboardInterrupt
+    def end(*_):                 # also by the launcher, wherever the screen waits for task
+        for text in Trouble.texts + op.trouble:
+            print(text)
+        print("task killed, tracebacks:", len(Trouble.texts + op.trouble))
+        sys.stdout.flush()
+        os._exit(0)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end)
     session.kill("milltask")
@@ -232,22 +232,16 @@ def end_of_task(op, act, rng, log):
         for _ in range(500):
             if rng.random() < 0.3:
                 act()
-            if ended or not op.app.tick():
+            if not op.app.tick():
                 break
             clock.sleep(0.02)
         else:
             print("the screen did not end")
-        armed.clear()
-    except (KeyboardInterrupt, lib.tk.TclError):     # or the screen has ended itself
-        armed.clear()
+    except lib.tk.TclError:      # the screen has ended itself
+        pass
     except Exception:
-        armed.clear()
-        print(traceback.format_exc(), log[-6:])
-    for text in Trouble.texts + op.trouble:
-        print(text)
-    print("task killed, tracebacks:", len(Trouble.texts + op.trouble))
-    sys.stdout.flush()
-    os._exit(0)
+        Trouble.texts.append(f"{traceback.format_exc()} {log[-6:]}")
+    end()
 
 
 def menu_entries(root):
