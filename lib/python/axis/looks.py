@@ -15,7 +15,7 @@ LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number"
 DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#3f5f86", "trough": "#44474c", "mark": "#1e1f23"}
 TOUCH = 1.7                     # buttons and sliders for gloves, where the screen has room for them
 USUAL_WINDOW, SASH = (1280, 860), 10
-HELP_LETTERS = 40                # of a line of the quick reference
+HELP_LETTERS = 36                # of a line of the quick reference
 TOUCH_STEP, LEAST_TOUCH = 0.05, 1.1
 SCALES = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0)      # 0: from the screen
 

@@ -192,7 +192,7 @@ class Window:
     def scale(self, parent, text, variable, low, high, command=None):
         row = ttk.Frame(parent)
         row.pack(fill="x")
-        label = ttk.Label(row, width=26)
+        label = ttk.Label(row, width=max(26, len(_(text)) + 7))
         label.pack(side="left")
         slider = ttk.Scale(row, from_=low, to=high, variable=variable, length=self.style.px(140), command=command, takefocus=False)
         slider.pack(side="right")
