@@ -265,8 +265,8 @@ class WindowPart(LooksPart):
         tk.Button(about, text=self.translate("OK"), width=10, command=about.withdraw).pack(pady=8)
         for column, rows in enumerate((help1, help2)):
             for row, (key, text) in enumerate(rows):
-                tk.Label(keys, text=self.translate(key) if key == SHIFT else key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(16, 6))
-                tk.Label(keys, text=text and self.translate(text), anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 16))
+                tk.Label(keys, text=self.translate(key) if key == SHIFT else key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(8, 6))
+                tk.Label(keys, text=text and self.translate(text), anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 8))
 
     def bind_text(self):
         t = self.text
