@@ -74,9 +74,9 @@ cp "$own"/machine/mill* "$own"/machine/*.hal "$own/remote/"; port=$((20000 + $$ 
 sed -i "s,^DISPLAY = .*,DISPLAY = linuxcncrsh --port $port," "$own/remote/mill.ini"
 cat > "$own/remote/test.sh" <<END
 linuxcnc -r mill.ini > log 2>&1 &
-until nc -z localhost $port; do sleep 0.1; done
+until nc -z 127.0.0.1 $port; do sleep 0.1; done
 (echo hello EMC me 1.0; echo set enable EMCTOO; echo set wait_mode done; echo set estop off; echo set machine on; echo get machine; echo shutdown) |
-    nc localhost $port | tr -d '\r' | grep -i '^machine'
+    nc 127.0.0.1 $port | tr -d '\r' | grep -i '^machine'
 wait
 END
 echo "MACHINE ON" > "$own/remote/expected"
