@@ -34,7 +34,7 @@ for v in INI_FILE_NAME CONFIG_DIR LINUXCNC_HOME LINUXCNC_NCFILES_DIR LINUXCNC_TC
     HAL_RTMOD_DIR NMLFILE TRAJ_COORDINATES KINS_KINEMATICS PYOPENGL_PLATFORM GDK_BACKEND QT_QPA_PLATFORM; do
     eval echo $v=\$$v
 done
-echo "$PATH" | tr : "\n" | head -n 1; echo "$PATH" | tr : "\n" | head -n 5 | grep local/bin
+echo "$PATH" | tr : "\n" | head -n 1; echo "$PATH" | tr : "\n" | head -n 5 | grep "/\.local/bin"
 [ -n "$LINUXCNCVERSION" ] && echo "version known"
 pwd; ls /tmp/linuxcnc.lock* > /dev/null && echo "lock there"
 END
