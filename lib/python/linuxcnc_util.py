@@ -41,10 +41,11 @@ class LinuxCNC:
         """Until the controller is up, idle and in emergency stop. RuntimeError when it does not come."""
         def ready():
             s = self.status
-            return (s.angular_units != 0.0 and s.axis_mask != 0 and s.cycle_time != 0.0 and s.exec_state == linuxcnc.EXEC_DONE
-                    and s.interp_state == linuxcnc.INTERP_IDLE and s.inpos and s.linear_units != 0.0 and s.max_acceleration != 0.0
-                    and s.max_velocity != 0.0 and s.program_units != 0 and s.rapidrate != 0.0 and s.state == linuxcnc.RCS_DONE
-                    and s.task_state == linuxcnc.STATE_ESTOP)
+            return (s.angular_units != 0.0 and s.axis_mask != 0 and s.cycle_time != 0.0
+                    and s.exec_state == linuxcnc.EXEC_DONE and s.interp_state == linuxcnc.INTERP_IDLE and s.inpos
+                    and s.linear_units != 0.0 and s.max_acceleration != 0.0
+                    and s.max_velocity != 0.0 and s.program_units != 0 and s.rapidrate != 0.0
+                    and s.state == linuxcnc.RCS_DONE and s.task_state == linuxcnc.STATE_ESTOP)
         end = _now() + timeout
         while True:
             try:
@@ -94,7 +95,8 @@ class LinuxCNC:
         print("    jogged axis", axis_letter, "to", self.status.position[axis])
         for n in range(9):
             if n != axis and self.status.position[n] != start[n]:
-                raise LinuxCNC_Exception(f"axis {'xyzabcuvw'[n]} moved from {start[n]} to {self.status.position[n]} but should not have")
+                raise LinuxCNC_Exception(f"axis {'xyzabcuvw'[n]} moved from {start[n]} to {self.status.position[n]} "
+                                         "but should not have")
 
     def wait_for_axis_to_stop_at(self, axis_letter, target, timeout=10.0, tolerance=0.0001):
         axis = "xyzabcuvw".index(axis_letter.lower())

@@ -72,7 +72,8 @@ def walk(element):
 
 def names():
     """What expressions of the file may use: all of tkinter without its name before it, some modules."""
-    modules = {"hal": hal, "os": os, "pyvcp_widgets": pyvcp_widgets, "sys": sys, "time": time, "tkinter": tkinter, "Tkinter": tkinter}
+    modules = {"hal": hal, "os": os, "pyvcp_widgets": pyvcp_widgets, "sys": sys, "time": time, "tkinter": tkinter,
+               "Tkinter": tkinter}
     return {n: value for n, value in vars(tkinter).items() if not n.startswith("_")} | modules
 
 
@@ -136,7 +137,8 @@ class Builder:
         print(f"{self.place(element)}: {text}", file=sys.stderr)
 
     def element(self, element, master, container):
-        """A widget with its children, or what a directive says. Between widgets, what is no element of a panel is passed over."""
+        """A widget with its children, or what a directive says. Between widgets, what is no element of a panel is
+        passed over."""
         make = pyvcp_widgets.ELEMENTS.get(element.name)
         if make is None:
             self.warn(element, f"<{element.name}> is no element of panels, it and all in it are left out; known: "
@@ -166,7 +168,8 @@ class Builder:
             self.panel.widgets.append(widget)
         inner = [child for child in element.children if child.name in pyvcp_widgets.ELEMENTS]
         if inner and not hasattr(widget, "add"):
-            raise SystemExit(f"{self.place(inner[0])}: <{inner[0].name}> cannot stand in <{element.name}>: a vbox, hbox, "
+            raise SystemExit(f"{self.place(inner[0])}: <{inner[0].name}> cannot stand in "
+                             f"<{element.name}>: a vbox, hbox, "
                              "labelframe, table or tabs around both holds them")
         for child in inner:
             self.element(child, widget.holder(), widget)

@@ -102,29 +102,39 @@ _NONE, _STR, _INT, _FLOAT, _BOOL, _OBJ = (), (str,), (int,), (float,), (bool,), 
 
 # Signals of the poller and of the message board, with the types of their arguments.
 _SIGNALS = {
-    "periodic": _NONE, "state-estop": _NONE, "state-estop-reset": _NONE, "state-on": _NONE, "state-off": _NONE, "homed": _STR, "unhomed": _STR,
-    "all-homed": _NONE, "not-all-homed": _STR, "override-limits-changed": (bool, object), "hard-limits-tripped": (bool, object),
-    "mode-manual": _NONE, "mode-auto": _NONE, "mode-mdi": _NONE, "command-running": _NONE, "command-stopped": _NONE, "command-error": _NONE,
-    "interp-run": _NONE, "interp-idle": _NONE, "interp-paused": _NONE, "interp-reading": _NONE, "interp-waiting": _NONE,
-    "jograte-changed": _FLOAT, "jograte-angular-changed": _FLOAT, "jogincrement-changed": (float, str), "jogincrement-angular-changed": (float, str),
-    "joint-selection-changed": _INT, "axis-selection-changed": _STR, "program-pause-changed": _BOOL, "optional-stop-changed": _BOOL,
-    "block-delete-changed": _BOOL, "feed-hold-enabled-changed": _BOOL, "file-loaded": _STR, "reload-display": _NONE, "line-changed": _INT,
-    "runstop-line-changed": _INT, "tool-in-spindle-changed": _INT, "tool-prep-changed": _INT, "tool-info-changed": _OBJ, "current-tool-offset": _OBJ,
-    "motion-mode-changed": _INT, "motion-type-changed": _INT, "spindle-control-changed": (int, bool, int, bool), "current-feed-rate": _FLOAT,
-    "current-x-rel-position": _FLOAT, "current-position": (object, object, object, object), "following-error": _OBJ, "current-z-rotation": _FLOAT,
-    "current-command": _STR, "requested-spindle-speed-changed": _FLOAT, "actual-spindle-speed-changed": _FLOAT, "spindle-override-changed": _FLOAT,
-    "feed-override-changed": _FLOAT, "rapid-override-changed": _FLOAT, "max-velocity-override-changed": _FLOAT, "g90-mode": _BOOL, "g91-mode": _BOOL,
-    "itime-mode": _BOOL, "fpm-mode": _BOOL, "fpr-mode": _BOOL, "css-mode": _BOOL, "rpm-mode": _BOOL, "radius-mode": _BOOL, "diameter-mode": _BOOL,
-    "flood-changed": _BOOL, "mist-changed": _BOOL, "m-code-changed": _STR, "g-code-changed": _STR, "f-code-changed": _FLOAT, "s-code-changed": _FLOAT,
-    "blend-code-changed": (float, float), "metric-mode-changed": _BOOL, "user-system-changed": _STR, "error": (int, str),
-    "mdi-line-selected": (str, str), "gcode-line-selected": _INT, "graphics-line-selected": _INT, "graphics-loading-progress": _INT,
-    "graphics-gcode-error": _STR, "graphics-gcode-properties": _OBJ, "graphics-view-changed": (str, object), "mdi-history-changed": _NONE,
-    "machine-log-changed": _NONE, "update-machine-log": (str, str), "move-text-lineup": _NONE, "move-text-linedown": _NONE, "dialog-request": _OBJ,
+    "periodic": _NONE, "state-estop": _NONE, "state-estop-reset": _NONE, "state-on": _NONE, "state-off": _NONE,
+    "homed": _STR, "unhomed": _STR, "all-homed": _NONE, "not-all-homed": _STR,
+    "override-limits-changed": (bool, object), "hard-limits-tripped": (bool, object),
+    "mode-manual": _NONE, "mode-auto": _NONE, "mode-mdi": _NONE, "command-running": _NONE, "command-stopped": _NONE,
+    "command-error": _NONE, "interp-run": _NONE, "interp-idle": _NONE, "interp-paused": _NONE, "interp-reading": _NONE,
+    "interp-waiting": _NONE, "jograte-changed": _FLOAT, "jograte-angular-changed": _FLOAT,
+    "jogincrement-changed": (float, str), "jogincrement-angular-changed": (float, str),
+    "joint-selection-changed": _INT, "axis-selection-changed": _STR, "program-pause-changed": _BOOL,
+    "optional-stop-changed": _BOOL, "block-delete-changed": _BOOL, "feed-hold-enabled-changed": _BOOL,
+    "file-loaded": _STR, "reload-display": _NONE, "line-changed": _INT,
+    "runstop-line-changed": _INT, "tool-in-spindle-changed": _INT, "tool-prep-changed": _INT, "tool-info-changed": _OBJ,
+    "current-tool-offset": _OBJ, "motion-mode-changed": _INT, "motion-type-changed": _INT,
+    "spindle-control-changed": (int, bool, int, bool), "current-feed-rate": _FLOAT,
+    "current-x-rel-position": _FLOAT, "current-position": (object, object, object, object), "following-error": _OBJ,
+    "current-z-rotation": _FLOAT, "current-command": _STR, "requested-spindle-speed-changed": _FLOAT,
+    "actual-spindle-speed-changed": _FLOAT, "spindle-override-changed": _FLOAT,
+    "feed-override-changed": _FLOAT, "rapid-override-changed": _FLOAT, "max-velocity-override-changed": _FLOAT,
+    "g90-mode": _BOOL, "g91-mode": _BOOL, "itime-mode": _BOOL, "fpm-mode": _BOOL, "fpr-mode": _BOOL, "css-mode": _BOOL,
+    "rpm-mode": _BOOL, "radius-mode": _BOOL, "diameter-mode": _BOOL,
+    "flood-changed": _BOOL, "mist-changed": _BOOL, "m-code-changed": _STR, "g-code-changed": _STR,
+    "f-code-changed": _FLOAT, "s-code-changed": _FLOAT,
+    "blend-code-changed": (float, float), "metric-mode-changed": _BOOL, "user-system-changed": _STR,
+    "error": (int, str), "mdi-line-selected": (str, str), "gcode-line-selected": _INT, "graphics-line-selected": _INT,
+    "graphics-loading-progress": _INT, "graphics-gcode-error": _STR, "graphics-gcode-properties": _OBJ,
+    "graphics-view-changed": (str, object), "mdi-history-changed": _NONE,
+    "machine-log-changed": _NONE, "update-machine-log": (str, str), "move-text-lineup": _NONE,
+    "move-text-linedown": _NONE, "dialog-request": _OBJ,
     "dialog-update": _OBJ, "focus-overlay-changed": (bool, str, object), "play-sound": _STR, "virtual-keyboard": _STR,
-    "dro-reference-change-request": _INT, "system_notify_button_pressed": (str, bool), "show-preference": _NONE, "shutdown": _NONE,
-    "shutdown-request": _NONE, "status-message": (object, object), "general": _OBJ, "forced-update": _NONE, "progress": (int, object),
-    "ok-request": _BOOL, "cancel-request": _BOOL, "cycle-start-request": _BOOL, "cycle-pause-request": _BOOL, "macro-call-request": _STR,
-}
+    "dro-reference-change-request": _INT, "system_notify_button_pressed": (str, bool), "show-preference": _NONE,
+    "shutdown": _NONE, "shutdown-request": _NONE, "status-message": (object, object), "general": _OBJ,
+    "forced-update": _NONE, "progress": (int, object),
+    "ok-request": _BOOL, "cancel-request": _BOOL, "cycle-start-request": _BOOL, "cycle-pause-request": _BOOL,
+    "macro-call-request": _STR, }
 _SIGNALS.update({f"gcode-group{n}-changed": _STR for n in (0, 1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 13, 14, 15)})
 
 # Slot of stat.gcodes that shows each modal group.
@@ -138,7 +148,8 @@ def _code(c):
 
 
 class GStat(GObject.GObject):
-    """GStat() is always the same object; so is that of a class derived from it, which may bring its own signals and methods."""
+    """GStat() is always the same object; so is that of a class derived from it, which may
+    bring its own signals and methods."""
 
     __gtype_name__ = "GStat"
     __gsignals__ = {name: (GObject.SignalFlags.RUN_FIRST, GObject.TYPE_NONE, types) for name, types in _SIGNALS.items()}
@@ -152,11 +163,11 @@ class GStat(GObject.GObject):
     STATE_ON, STATE_OFF = linuxcnc.STATE_ON, linuxcnc.STATE_OFF
     JOGJOINT, JOGTELEOP = 1, 0
 
-    STATES = {linuxcnc.STATE_ESTOP: "state-estop", linuxcnc.STATE_ESTOP_RESET: "state-estop-reset", linuxcnc.STATE_ON: "state-on",
-              linuxcnc.STATE_OFF: "state-off"}
+    STATES = {linuxcnc.STATE_ESTOP: "state-estop", linuxcnc.STATE_ESTOP_RESET: "state-estop-reset",
+              linuxcnc.STATE_ON: "state-on", linuxcnc.STATE_OFF: "state-off"}
     MODES = {linuxcnc.MODE_MANUAL: "mode-manual", linuxcnc.MODE_AUTO: "mode-auto", linuxcnc.MODE_MDI: "mode-mdi"}
-    INTERP = {linuxcnc.INTERP_WAITING: "interp-waiting", linuxcnc.INTERP_READING: "interp-reading", linuxcnc.INTERP_PAUSED: "interp-paused",
-              linuxcnc.INTERP_IDLE: "interp-idle"}
+    INTERP = {linuxcnc.INTERP_WAITING: "interp-waiting", linuxcnc.INTERP_READING: "interp-reading",
+              linuxcnc.INTERP_PAUSED: "interp-paused", linuxcnc.INTERP_IDLE: "interp-idle"}
 
     def __new__(cls, *args, **kwargs):
         if "_the_object" not in cls.__dict__:
@@ -217,13 +228,17 @@ class GStat(GObject.GObject):
         s, old = self.stat, self.old
         s.poll()
         old.update(
-            state=s.task_state, mode=s.task_mode, interp=s.interp_state, command_state=s.state, joints=s.joints, rpm=s.spindle[0]["speed"],
-            homed=s.homed[:s.joints], override_limits=tuple(s.joint[n]["override_limits"] for n in range(s.joints)),
-            hard_limits=tuple((s.limit[n] & 1, (s.limit[n] & 2) >> 1) for n in range(s.joints)), line=s.motion_line, paused=s.task_paused,
-            optional_stop=s.optional_stop, block_delete=s.block_delete, feed_hold_enabled=s.feed_hold_enabled, tool=s.tool_in_spindle,
-            tool_offset=s.tool_offset, motion_mode=s.motion_mode, motion_type=s.motion_type, rotation=s.rotation_xy, command=s.command,
-            spindle_or=s.spindle[0]["override"], feed_or=s.feedrate, rapid_or=s.rapidrate, max_velocity=s.max_velocity, flood=s.flood, mist=s.mist,
-            g_codes=s.gcodes, m_codes=s.mcodes, settings=s.settings, call_level=s.call_level, file_name=s.file, program_units=s.program_units,
+            state=s.task_state, mode=s.task_mode, interp=s.interp_state, command_state=s.state, joints=s.joints,
+            rpm=s.spindle[0]["speed"], homed=s.homed[:s.joints],
+            override_limits=tuple(s.joint[n]["override_limits"] for n in range(s.joints)),
+            hard_limits=tuple((s.limit[n] & 1, (s.limit[n] & 2) >> 1) for n in range(s.joints)), line=s.motion_line,
+            paused=s.task_paused, optional_stop=s.optional_stop, block_delete=s.block_delete,
+            feed_hold_enabled=s.feed_hold_enabled, tool=s.tool_in_spindle,
+            tool_offset=s.tool_offset, motion_mode=s.motion_mode, motion_type=s.motion_type, rotation=s.rotation_xy,
+            command=s.command, spindle_or=s.spindle[0]["override"], feed_or=s.feedrate, rapid_or=s.rapidrate,
+            max_velocity=s.max_velocity, flood=s.flood, mist=s.mist,
+            g_codes=s.gcodes, m_codes=s.mcodes, settings=s.settings, call_level=s.call_level, file_name=s.file,
+            program_units=s.program_units,
             spindle_enabled=tuple((sp["enabled"], sp["direction"]) for sp in s.spindle[:max(1, s.spindles)]))
         old["tool_info"] = s.tool_table[0] if s.tool_table else None
         old["m_codes_text"] = " ".join(f"M{c}" for c in sorted(s.mcodes[1:]) if c != -1)
@@ -274,7 +289,8 @@ class GStat(GObject.GObject):
             self.previous_mode = before.get("mode", 0)
             self.emit(self.MODES[new["mode"]])
         if changed("command_state"):
-            self.emit({linuxcnc.RCS_EXEC: "command-running", linuxcnc.RCS_DONE: "command-stopped"}.get(new["command_state"], "command-error"))
+            self.emit({linuxcnc.RCS_EXEC: "command-running",
+                       linuxcnc.RCS_DONE: "command-stopped"}.get(new["command_state"], "command-error"))
         if changed("interp"):
             if before.get("interp") in (0, linuxcnc.INTERP_IDLE, None) and new["interp"] != linuxcnc.INTERP_IDLE:
                 self.emit("interp-run")
@@ -303,12 +319,16 @@ class GStat(GObject.GObject):
         if changed("override_limits"):
             self.emit("override-limits-changed", any(new["override_limits"]), list(new["override_limits"]))
         if changed("hard_limits"):
-            self.emit("hard-limits-tripped", any(a or b for a, b in new["hard_limits"]), [list(p) for p in new["hard_limits"]])
-        for key, signal in (("paused", "program-pause-changed"), ("optional_stop", "optional-stop-changed"), ("block_delete", "block-delete-changed"),
-                            ("feed_hold_enabled", "feed-hold-enabled-changed"), ("flood", "flood-changed"), ("mist", "mist-changed")):
+            self.emit("hard-limits-tripped", any(a or b for a, b in new["hard_limits"]),
+                      [list(p) for p in new["hard_limits"]])
+        for key, signal in (("paused", "program-pause-changed"), ("optional_stop", "optional-stop-changed"),
+                            ("block_delete", "block-delete-changed"),
+                            ("feed_hold_enabled", "feed-hold-enabled-changed"), ("flood", "flood-changed"),
+                            ("mist", "mist-changed")):
             if changed(key):
                 self.emit(signal, bool(new[key]))
-        for key, signal in (("tool", "tool-in-spindle-changed"), ("motion_mode", "motion-mode-changed"), ("motion_type", "motion-type-changed")):
+        for key, signal in (("tool", "tool-in-spindle-changed"), ("motion_mode", "motion-mode-changed"),
+                            ("motion_type", "motion-type-changed")):
             if changed(key):
                 self.emit(signal, new[key])
         if changed("tool_prep") and new["tool_prep"] is not None:
@@ -325,7 +345,8 @@ class GStat(GObject.GObject):
             self.emit("requested-spindle-speed-changed", new["rpm"])
         if changed("actual_speed") and new["actual_speed"] is not None:
             self.emit("actual-spindle-speed-changed", new["actual_speed"])
-        for key, signal in (("spindle_or", "spindle-override-changed"), ("feed_or", "feed-override-changed"), ("rapid_or", "rapid-override-changed")):
+        for key, signal in (("spindle_or", "spindle-override-changed"), ("feed_or", "feed-override-changed"),
+                            ("rapid_or", "rapid-override-changed")):
             if changed(key):
                 self.emit(signal, new[key] * 100.0)
         if changed("max_velocity") and new["max_velocity"] < 1e99:
@@ -354,8 +375,9 @@ class GStat(GObject.GObject):
         for group, slot in _GROUP_SLOT.items():
             if not was or was[slot] != codes[slot]:
                 self.emit(f"gcode-group{group}-changed", _code(codes[slot]) if codes[slot] != -1 else "")
-        for signal, code in (("g90-mode", 900), ("g91-mode", 910), ("itime-mode", 930), ("fpm-mode", 940), ("fpr-mode", 950), ("css-mode", 960),
-                             ("rpm-mode", 970), ("radius-mode", 80), ("diameter-mode", 70)):
+        for signal, code in (("g90-mode", 900), ("g91-mode", 910), ("itime-mode", 930), ("fpm-mode", 940),
+                             ("fpr-mode", 950), ("css-mode", 960), ("rpm-mode", 970), ("radius-mode", 80),
+                             ("diameter-mode", 70)):
             if not was or (code in was) != (code in active):
                 self.emit(signal, code in active)
         if not was or (210 in was) != (210 in active):

@@ -22,8 +22,8 @@ class Attendant:
         if stat.interp_state == l.INTERP_PAUSED and stat.paused and stat.task_paused:
             self.machine.command.auto(l.AUTO_RESUME)
         self.change_tool()
-        seen = (stat.motion_line, stat.current_line, stat.delay_left, stat.tool_in_spindle, stat.exec_state, stat.interp_state,
-                stat.actual_position)
+        seen = (stat.motion_line, stat.current_line, stat.delay_left, stat.tool_in_spindle, stat.exec_state,
+                stat.interp_state, stat.actual_position)
         if seen != self.last or stat.exec_state == l.EXEC_WAITING_FOR_SYSTEM_CMD:
             self.last, self.since, self.wall = seen, clock.now(), time.monotonic()
         elif clock.now() - self.since > self.patience and time.monotonic() - self.wall > WALL_S:

@@ -244,7 +244,8 @@ class Checker:
             joints = [j for j, owner in enumerate(letters[:self.joints]) if owner == letter]
             numbers = {integer(self.ini.get(f"JOINT_{j}", "HOME_SEQUENCE", "999")) for j in joints}
             if len(joints) > 1 and (len({abs(n or 0) for n in numbers}) > 1 or min(n or 0 for n in numbers) >= 0):
-                self.warning(f"Joints {', '.join(map(str, joints))} drive {letter} together but can be homed and jogged "
+                self.warning(f"Joints {', '.join(map(str, joints))} drive {letter} together but can be "
+                             "homed and jogged "
                              "apart: give them the same negative HOME_SEQUENCE")
 
     def run(self):

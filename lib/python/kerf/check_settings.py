@@ -44,7 +44,8 @@ class Settings:
         return default if value is None else value
 
     def run(self):
-        for check in (self.names, self.values, self.counts, self.speeds, self.homing, self.combinations, self.files, self.probing):
+        for check in (self.names, self.values, self.counts, self.speeds, self.homing, self.combinations,
+                      self.files, self.probing):
             check()
 
     # -- names -------------------------------------------------------------------------------
@@ -81,7 +82,8 @@ class Settings:
 
     def is_used(self, section, name):
         """Some file of the machine names this setting of the user's own."""
-        if any(f"[{section}]{name}" in v for values in self.ini.sections.values() for vs in values.values() for v in vs):
+        if any(f"[{section}]{name}" in v for values in self.ini.sections.values()
+               for vs in values.values() for v in vs):
             return True
         texts = self.texts_of_the_folder()
         if re.search(rf"(\[{re.escape(section)}\]\s*\(?|::{re.escape(section)}\(){re.escape(name)}\b", texts, re.I):
@@ -126,9 +128,11 @@ class Settings:
         if near:
             self.c.warning(f"[{section}]{name}: Unknown; did you mean {near[0]}?", section, name)
         elif elsewhere:
-            self.c.warning(f"[{section}]{name}: Unknown here; it belongs to [{elsewhere[0].replace('*', 'n')}]", section, name)
+            self.c.warning(f"[{section}]{name}: Unknown here; it belongs to [{elsewhere[0].replace('*', 'n')}]",
+                           section, name)
         else:
-            self.c.info(f"[{section}]{name}: Unknown; no program of ours and no file of this folder reads it", section, name)
+            self.c.info(f"[{section}]{name}: Unknown; no program of ours and no file of this folder reads it",
+                        section, name)
 
     # -- values ------------------------------------------------------------------------------
 
@@ -145,7 +149,8 @@ class Settings:
         where = (section, name)
         comment = re.search(r"\s[#;]", text)
         if comment and setting.kind != "text":
-            self.c.warning(f"{tag}: '{text[comment.start():].strip()}' is part of the value; comments stand on lines of "
+            self.c.warning(f"{tag}: '{text[comment.start():].strip()}' is part of the value; comments "
+                           "stand on lines of "
                            "their own", *where)
         if setting.kind in ("int", "real"):
             m = NUMBER.match(text)
@@ -159,7 +164,8 @@ class Settings:
             elif rest and not rest[0].isspace() and not re.match(r"0[xXoObB]", text):
                 self.c.warning(f"{tag}: '{text}' is read as {m[0]}; write the number alone", *where)
             elif not self.c.has_int(section, name) and not setting.low <= float(m[0]) <= setting.high:
-                limits = f"at least {setting.low:.15g}" if setting.high > 1e100 else f"{setting.low:.15g} to {setting.high:.15g}"
+                limits = (f"at least {setting.low:.15g}" if setting.high > 1e100
+                          else f"{setting.low:.15g} to {setting.high:.15g}")
                 self.c.warning(f"{tag}: {m[0]} is out of range; allowed: {limits}", *where)
         elif setting.kind == "words" and text.upper() not in (w.upper() for w in setting.words) \
                 and not self.c.has_enum(section, name):
@@ -180,7 +186,8 @@ class Settings:
         for section in self.ini.sections:
             m = re.fullmatch(r"JOINT_(\d+)", section)
             if m and int(m[1]) >= joints:
-                self.c.warning(f"[{section}]: Not used; [KINS]JOINTS = {joints} means joints 0 to {joints - 1}", section)
+                self.c.warning(f"[{section}]: Not used; [KINS]JOINTS = {joints} means joints 0 to {joints - 1}",
+                               section)
         if any(s.startswith("JOINT_") for s in self.ini.sections):
             for j in range(joints):
                 if f"JOINT_{j}" not in self.ini.sections:
@@ -190,7 +197,8 @@ class Settings:
             if re.fullmatch(r"AXIS_[XYZABCUVW]", section) and letters and section[5] not in letters:
                 self.c.info(f"[{section}]: Not used; [TRAJ]COORDINATES = {letters}", section)
             elif re.fullmatch(r"AXIS_\d", section):
-                self.c.warning(f"[{section}]: Axes have letters ([AXIS_X]); motors are [JOINT_n]; update_ini converts", section)
+                self.c.warning(f"[{section}]: Axes have letters ([AXIS_X]); motors are [JOINT_n]; update_ini converts",
+                               section)
         given = self.option("KINS", "KINEMATICS", "coordinates")
         extra = int(number(self.option("EMCMOT", "EMCMOT", "num_extrajoints") or "0") or 0)
         if given and (self.ini.get("KINS", "KINEMATICS") or "").startswith("trivkins") and len(given) > joints - extra:
@@ -222,13 +230,15 @@ class Settings:
                 value = abs(self.get(section, name, 0))
                 if units == "inch" and TOO_LONG_INCH < value < 1e9:
                     self.c.warning(f"[{section}]{name}: {value:g} inch; [TRAJ]LINEAR_UNITS = "
-                                   f"{self.ini.get('TRAJ', 'LINEAR_UNITS')} while this looks like millimetres", section, name)
+                                   f"{self.ini.get('TRAJ', 'LINEAR_UNITS')} while this looks like millimetres",
+                                   section, name)
         base, servo = self.get("EMCMOT", "BASE_PERIOD", 0), self.get("EMCMOT", "SERVO_PERIOD", 0)
         for name, value in (("BASE_PERIOD", base), ("SERVO_PERIOD", servo)):
             if 0 < value < 1000:
                 self.c.warning(f"[EMCMOT]{name}: {value:g} ns; periods are in nanoseconds", "EMCMOT", name)
         if base > servo > 0:
-            self.c.warning(f"[EMCMOT]BASE_PERIOD: {base:g} ns is longer than SERVO_PERIOD ({servo:g} ns)", "EMCMOT", "BASE_PERIOD")
+            self.c.warning(f"[EMCMOT]BASE_PERIOD: {base:g} ns is longer than SERVO_PERIOD ({servo:g} ns)",
+                           "EMCMOT", "BASE_PERIOD")
         cycle = self.get("TASK", "CYCLE_TIME", 0)
         if cycle > 1:
             self.c.warning(f"[TASK]CYCLE_TIME: {cycle:g} s; it is in seconds", "TASK", "CYCLE_TIME")
@@ -238,7 +248,8 @@ class Settings:
                     low = abs(self.get(section, f"MIN_{way}_VELOCITY", 0))
                     high = abs(self.get(section, f"MAX_{way}_VELOCITY", 1e99))
                     if low > high:
-                        self.c.warning(f"[{section}]MIN_{way}_VELOCITY: {low:g} rpm is above MAX_{way}_VELOCITY ({high:g} rpm)",
+                        self.c.warning(f"[{section}]MIN_{way}_VELOCITY: {low:g} rpm is above "
+                                       f"MAX_{way}_VELOCITY ({high:g} rpm)",
                                        section, f"MIN_{way}_VELOCITY")
                 if self.get(section, "MAX_FORWARD_VELOCITY", 1) == 0:
                     self.c.warning(f"[{section}]MAX_FORWARD_VELOCITY: 0 rpm: M3 will not turn the spindle", section,
@@ -257,11 +268,12 @@ class Settings:
                 self.c.warning(f"[{s}]HOME: {home:g} is outside the joint's limits ({low:g} to {high:g})", s, "HOME")
             search, latch = self.get(s, "HOME_SEARCH_VEL", 0), self.get(s, "HOME_LATCH_VEL", 0)
             if search and not latch:
-                self.c.warning(f"[{s}]HOME_LATCH_VEL: 0 with HOME_SEARCH_VEL {search:g}: homing will end in an error", s,
-                               "HOME_SEARCH_VEL")
+                self.c.warning(f"[{s}]HOME_LATCH_VEL: 0 with HOME_SEARCH_VEL {search:g}: homing will end in an error",
+                               s, "HOME_SEARCH_VEL")
             most = self.get(s, "MAX_VELOCITY", 1)
             if abs(search) > most:
-                self.c.warning(f"[{s}]HOME_SEARCH_VEL: {search:g} is above MAX_VELOCITY ({most:g})", s, "HOME_SEARCH_VEL")
+                self.c.warning(f"[{s}]HOME_SEARCH_VEL: {search:g} is above MAX_VELOCITY ({most:g})", s,
+                               "HOME_SEARCH_VEL")
             error, least = self.get(s, "FERROR"), self.get(s, "MIN_FERROR")
             if error is not None and least is not None and least > error:
                 self.c.warning(f"[{s}]MIN_FERROR: {least:g} is above FERROR ({error:g})", s, "MIN_FERROR")
@@ -305,7 +317,8 @@ class Settings:
             return
         paths = [self.find(entry.split()[0]) for entry in halfiles if entry.strip()]
         if not any("key=" in Path(p).read_text(errors="replace") for p in paths if p):
-            self.c.warning("[EMCMOT]SHMEM_KEY: No HAL file gives motmod key=[EMCMOT]SHMEM_KEY, so task does not find it; take the line out",
+            self.c.warning("[EMCMOT]SHMEM_KEY: No HAL file gives motmod key=[EMCMOT]SHMEM_KEY, so task does not find "
+                           "it; take the line out",
                            "EMCMOT", "SHMEM_KEY")
 
     # -- files -------------------------------------------------------------------------------
@@ -347,18 +360,22 @@ class Settings:
             if path.is_dir() or path.exists() and not os.access(path, os.R_OK):
                 self.exists("RS274NGC", "PARAMETER_FILE", 1, "file", parameters)
             elif path.parent.is_dir() and not os.access(path.parent, os.W_OK):
-                self.c.warning(f"[RS274NGC]PARAMETER_FILE: '{parameters}' can not be saved, the folder is not writable for this user: offsets will be lost",
+                self.c.warning(f"[RS274NGC]PARAMETER_FILE: '{parameters}' can not be saved, the folder is not "
+                               "writable for this user: offsets will be lost",
                                "RS274NGC", "PARAMETER_FILE")
             elif not path.parent.is_dir():
-                self.c.warning(f"[RS274NGC]PARAMETER_FILE: '{parameters}' can not be saved: there is no folder {path.parent}", "RS274NGC", "PARAMETER_FILE")
+                self.c.warning(f"[RS274NGC]PARAMETER_FILE: '{parameters}' can not be saved: there is no "
+                               f"folder {path.parent}", "RS274NGC", "PARAMETER_FILE")
         for section, name in (("EMCIO", "DB_PROGRAM"), ("TASK", "TASK"), ("DISPLAY", "DISPLAY"), ("HAL", "HALUI")):
             words = (ini.get(section, name) or "").split()
             if words and not self.program(words[0]):
-                self.c.warning(f"[{section}]{name}: No program '{words[0]}' in this folder, its bin/ or on PATH", section, name)
+                self.c.warning(f"[{section}]{name}: No program '{words[0]}' in this folder, its bin/ or on PATH",
+                               section, name)
         for n, line in enumerate(ini.all("RS274NGC", "REMAP")):
             m = re.search(r"\bngc=(\S+)", line)
             if m and not any((d / f"{m[1]}.ngc").is_file() for d in self.program_folders()):
-                self.c.warning(f"[RS274NGC]REMAP: No file {m[1]}.ngc in PROGRAM_PREFIX or SUBROUTINE_PATH ({line.split()[0]})",
+                self.c.warning(f"[RS274NGC]REMAP: No file {m[1]}.ngc in PROGRAM_PREFIX or SUBROUTINE_PATH "
+                               f"({line.split()[0]})",
                                "RS274NGC", "REMAP", n + 1)
 
     def probing(self):
@@ -367,7 +384,8 @@ class Settings:
         for f in files[:TEXT_FILES]:
             if f.is_file() and f.stat().st_size <= PROGRAM_SIZE and os.access(f, os.R_OK):
                 for line, code in dead_tests(f.read_text(errors="replace")):
-                    self.c.warning(f"{f}:{line}: {code} ends the program when there is no contact, so this test of #5070 "
+                    self.c.warning(f"{f}:{line}: {code} ends the program when there is no contact, so "
+                                   "this test of #5070 "
                                    f"is always true: use {code[:-1]}{int(code[-1]) + 1}")
 
     def program_folders(self):

@@ -134,7 +134,8 @@ def copy(path, tree, roots):
         for ini in target.glob("*.ini"):
             text = ini.read_text(errors="surrogateescape")
             prefix = f"PROGRAM_PREFIX = {Path.home() / 'linuxcnc/nc_files'}"
-            ini.write_text(re.sub(r"(?m)^[ \t]*PROGRAM_PREFIX[ \t]*=.*$", lambda match: prefix, text), errors="surrogateescape")
+            ini.write_text(re.sub(r"(?m)^[ \t]*PROGRAM_PREFIX[ \t]*=.*$", lambda match: prefix, text),
+                           errors="surrogateescape")
         make_nc_files(tree)
     except OSError:
         shutil.rmtree(target, ignore_errors=True)
@@ -195,7 +196,8 @@ def desktop_entry(path, tree, name, comment=""):
 def desktop_folder():
     """The user's desktop."""
     try:
-        found = subprocess.run(["xdg-user-dir", "DESKTOP"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+        found = subprocess.run(["xdg-user-dir", "DESKTOP"], stdout=subprocess.PIPE, text=True,
+                               check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         found = ""
     return Path(found) if found else Path.home() / "Desktop"

@@ -26,7 +26,8 @@ def load_hal(path):
         env.pop("KERF_CLOCK_SLOT", None)
         try:
             done = subprocess.run(["linuxcnc", "-r", "-k", "-n", str(folder / path.name)], env=env, timeout=LOAD_S,
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True)
         except subprocess.TimeoutExpired:
             return [f"the HAL files did not load within {LOAD_S} s"]
     if done.returncode == 0:

@@ -15,7 +15,8 @@ def need_display():
     if not shutil.which("Xvfb"):
         return False
     reading, writing = os.pipe()
-    subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset"], pass_fds=[writing],
+    subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp",
+                      "-noreset"], pass_fds=[writing],
                      stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                      preexec_fn=end_with_parent)
     os.close(writing)

@@ -14,14 +14,15 @@ def substitute(name):
     """The file that fontconfig gives instead of a font's file; None without one."""
     family = "monospace" if "Mono" in name else "sans"
     try:
-        return subprocess.run(["fc-match", "-f", "%{file}", family], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                              text=True, timeout=WAIT_S, check=False).stdout or None
+        return subprocess.run(["fc-match", "-f", "%{file}", family], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL, text=True, timeout=WAIT_S, check=False).stdout or None
     except (OSError, subprocess.TimeoutExpired):
         return None
 
 
 def load(name, pixels):
-    """The font of a file name ("DejaVuSans.ttf") in this height; another one, at last Pillow's own, where it is missing."""
+    """The font of a file name ("DejaVuSans.ttf") in this height; another one, at last Pillow's
+    own, where it is missing."""
     size = max(LEAST_PX, round(pixels))
     for file in (name, substitute):
         try:

@@ -9,7 +9,8 @@ import os
 import re
 from dataclasses import dataclass
 
-SEGMENTS = {0x64: "motion", 0x48414C32: "HAL", 0x48484C34: "UUID", 0x90280A48: "RTAPI",     # documented keys of SysV memory
+# documented keys of SysV memory
+SEGMENTS = {0x64: "motion", 0x48414C32: "HAL", 0x48484C34: "UUID", 0x90280A48: "RTAPI",
             0x130CF406: "halscope", 0x434C522B: "classicladder"}
 MASK = (1 << 64) - 1
 LONGEST = 48

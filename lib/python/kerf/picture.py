@@ -63,7 +63,8 @@ class View:
         if self.project is not isometric:
             self.grid()
         d.rectangle((self.left, self.top, self.right - 1, self.bottom - 1), outline=FRAME, width=OVERSAMPLE)
-        d.text((self.left + 12 * OVERSAMPLE, self.top + 8 * OVERSAMPLE), self.title, fill=INK, font=font(15 * OVERSAMPLE))
+        d.text((self.left + 12 * OVERSAMPLE, self.top + 8 * OVERSAMPLE), self.title, fill=INK,
+               font=font(15 * OVERSAMPLE))
 
     def grid(self):
         seen = max(self.right - self.left, self.bottom - self.top) / self.scale
@@ -123,14 +124,17 @@ class View:
             u, v = isometric(direction)
             tip = (ox + length * u, oy - length * v)
             self.draw.line((ox, oy, *tip), fill=colour, width=3 * OVERSAMPLE)
-            self.draw.text((tip[0] + 4 * OVERSAMPLE, tip[1] - 8 * OVERSAMPLE), name, fill=colour, font=font(14 * OVERSAMPLE))
+            self.draw.text((tip[0] + 4 * OVERSAMPLE, tip[1] - 8 * OVERSAMPLE), name, fill=colour,
+                           font=font(14 * OVERSAMPLE))
         lows = [min(p[i] for p in points) for i in range(3)]
         highs = [max(p[i] for p in points) for i in range(3)]
         size = " x ".join(f"{h - l:.1f}" for l, h in zip(lows, highs))
-        self.draw.text((self.left + 12 * OVERSAMPLE, self.top + 32 * OVERSAMPLE), f"extents {size} {self.unit}", fill=INK,
-                       font=font(12 * OVERSAMPLE))
-        self.draw.text((self.right - 190 * OVERSAMPLE, self.bottom - 30 * OVERSAMPLE), "feed", fill=FEED, font=font(13 * OVERSAMPLE))
-        self.draw.text((self.right - 130 * OVERSAMPLE, self.bottom - 30 * OVERSAMPLE), "rapid", fill=RAPID, font=font(13 * OVERSAMPLE))
+        self.draw.text((self.left + 12 * OVERSAMPLE, self.top + 32 * OVERSAMPLE),
+                       f"extents {size} {self.unit}", fill=INK, font=font(12 * OVERSAMPLE))
+        self.draw.text((self.right - 190 * OVERSAMPLE, self.bottom - 30 * OVERSAMPLE), "feed", fill=FEED,
+                       font=font(13 * OVERSAMPLE))
+        self.draw.text((self.right - 130 * OVERSAMPLE, self.bottom - 30 * OVERSAMPLE), "rapid", fill=RAPID,
+                       font=font(13 * OVERSAMPLE))
 
 
 def draw(path, filename, unit):

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Processes that belong to another one: they end with it, and take no more memory than they may.
 
-As a program, `process.py PID COMMAND...`: runs a command of somebody else for the process PID. When that one ends, or this one gets
-SIGTERM, the command and all it started are ended. Its exit status is the command's (128 + n for signal n).
+As a program, `process.py PID COMMAND...`: runs a command of somebody else for the process PID. When that one ends, or
+this one gets SIGTERM, the command and all it started are ended. Its exit status is the command's (128 + n for signal
+n).
 """
 
 import ctypes
@@ -18,7 +19,8 @@ GRACE_S = 1.0            # for a command to end itself
 
 
 def end_with_parent(how=signal.SIGTERM, parent=None):
-    """This process gets the signal when the thread that started it ends. parent: its number; when that one is gone already, SystemExit."""
+    """This process gets the signal when the thread that started it ends. parent: its number; when that one is gone
+    already, SystemExit."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, how, 0, 0, 0)
     if parent is not None and os.getppid() != parent:
         raise SystemExit(1)

@@ -52,7 +52,8 @@ class Settings:
     roughing_depth: float = 0.25
 
     def check(self):
-        for name in ("tolerance", "pixel_size", "feed_rate", "plunge_feed_rate", "depth", "tool_diameter", "safety_height"):
+        for name in ("tolerance", "pixel_size", "feed_rate", "plunge_feed_rate", "depth", "tool_diameter",
+                     "safety_height"):
             if not (0 < getattr(self, name) < 1e6):
                 raise Mistake(_("%s must be more than 0, not %s") % (name, getattr(self, name)))
         for name in ("spindle_speed", "roughing_offset", "roughing_depth"):
@@ -66,13 +67,15 @@ class Settings:
             if not 0 <= getattr(self, name) < len(choices):
                 raise Mistake(_("%s must be one of %s") % (name, ", ".join(choices)))
         if self.tool_pixels() > MAX_TOOL_PIXELS:
-            raise Mistake(_("the tool covers %.0f pixels; at most %d: is pixel_size right?") % (self.tool_pixels(), MAX_TOOL_PIXELS))
+            raise Mistake(_("the tool covers %.0f pixels; at most %d: is pixel_size right?")
+                          % (self.tool_pixels(), MAX_TOOL_PIXELS))
 
     def tool_pixels(self):
         return self.tool_diameter / self.pixel_size
 
 
-CHOICES = {"units": UNITS, "expand": BORDERS, "pattern": PATTERNS, "converter": CONVERTERS, "tool_type": TOOLS, "bounded": BOUNDED}
+CHOICES = {"units": UNITS, "expand": BORDERS, "pattern": PATTERNS, "converter": CONVERTERS, "tool_type": TOOLS,
+           "bounded": BOUNDED}
 
 
 def heights(grey, settings):
@@ -81,14 +84,16 @@ def heights(grey, settings):
     if settings.normalize and v.max() > v.min():
         v = (v - v.min()) / (v.max() - v.min())
     if settings.expand:
-        v = numpy.pad(v, math.ceil(settings.tool_pixels()), constant_values=1.0 if BORDERS[settings.expand] == "White" else 0.0)
+        v = numpy.pad(v, math.ceil(settings.tool_pixels()),
+                      constant_values=1.0 if BORDERS[settings.expand] == "White" else 0.0)
     return (v - 1) * settings.depth
 
 
 def disc(radius_px):
     """(dy, dx, distance) of the pixels within a radius."""
     reach = int(radius_px)
-    return [(dy, dx, math.hypot(dx, dy)) for dy in range(-reach, reach + 1) for dx in range(-reach, reach + 1) if math.hypot(dx, dy) <= radius_px]
+    return [(dy, dx, math.hypot(dx, dy)) for dy in range(-reach, reach + 1)
+            for dx in range(-reach, reach + 1) if math.hypot(dx, dy) <= radius_px]
 
 
 def tool_shape(settings):
@@ -224,7 +229,8 @@ class Cutter:
 
 def steep(tool_map, settings, by_rows):
     """Where the surface slopes strongly along the rows (or columns)."""
-    slope = numpy.abs(numpy.gradient(tool_map, settings.pixel_size, axis=1 if by_rows else 0)) if min(tool_map.shape) > 1 else numpy.zeros(tool_map.shape)
+    slope = (numpy.abs(numpy.gradient(tool_map, settings.pixel_size, axis=1 if by_rows else 0))
+             if min(tool_map.shape) > 1 else numpy.zeros(tool_map.shape))
     strong = slope > math.tan(math.radians(settings.contact_angle))
     return lowest(strong.astype(float), [(dy, dx, 0.0) for dy, dx, _ in disc(max(1.0, settings.pixelstep))]) > 0.5
 
@@ -238,7 +244,8 @@ def directions(settings, tool_map):
     first = name.startswith("Rows")
     strong = steep(tool_map, settings, not first)
     bounded = BOUNDED[settings.bounded]
-    return [(first, ~strong if bounded == "Full" else everything), (not first, strong if bounded != "None" else everything)]
+    return [(first, ~strong if bounded == "Full" else everything),
+            (not first, strong if bounded != "None" else everything)]
 
 
 def convert(grey, settings, target, progress=lambda percent: None):
@@ -257,7 +264,8 @@ def convert(grey, settings, target, progress=lambda percent: None):
             level -= settings.roughing_depth
         levels.append(rough)
     levels.append(finish)
-    writer = Gcode(safetyheight=settings.safety_height, tolerance=settings.tolerance, units=UNITS[settings.units], target=target)
+    writer = Gcode(safetyheight=settings.safety_height, tolerance=settings.tolerance,
+                   units=UNITS[settings.units], target=target)
     writer.begin()
     writer.continuous(settings.tolerance)
     if settings.spindle_speed > 0:
@@ -265,7 +273,8 @@ def convert(grey, settings, target, progress=lambda percent: None):
     for n, tool_map in enumerate(levels):
         for by_rows, keep in directions(settings, tool_map):
             writer.set_plane(18 if by_rows else 19)
-            Cutter(writer, settings, tool_map, keep).passes(by_rows, lambda part: progress(50 + 50 * (n + part) / len(levels)))
+            Cutter(writer, settings, tool_map, keep).passes(by_rows,
+                                                            lambda part: progress(50 + 50 * (n + part) / len(levels)))
     writer.set_plane(17)
     writer.flush()
     writer.safety()

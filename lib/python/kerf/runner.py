@@ -78,8 +78,8 @@ def check_program(program, ini_path, env):
             result = gcode.load(str(program), str(copy), [startup] if startup else None,
                                 tools=read_tools(ini, folder),
                                 axis_mask=sum(1 << i for i, c in enumerate("XYZABCUVW") if c in letters),
-                                linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric") else 1 / 25.4,
-                                ini=str(ini_path), interpreter=ini.get("TASK", "INTERPRETER", ""))
+                                linear_units=1.0 if ini.get("TRAJ", "LINEAR_UNITS", "mm") in ("mm", "metric")
+                                else 1 / 25.4, ini=str(ini_path), interpreter=ini.get("TASK", "INTERPRETER", ""))
         finally:
             os.chdir(there)
     if result.error and "#<_hal[" not in result.error:
@@ -178,7 +178,8 @@ class Measurement:
                       f"setp limitcheck.{j}.max-jerk {float(ini.get(section, 'MAX_JERK', '0'))}",
                       f"setp limitcheck.{j}.min-pos {float(ini.get(section, 'MIN_LIMIT', '-1e99'))}",
                       f"setp limitcheck.{j}.max-pos {float(ini.get(section, 'MAX_LIMIT', '1e99'))}"]
-            lines.append(self.link(f"joint.{j}.pos-cmd", f"limitcheck.{j}.pos-cmd" + f" sampler.1.pin.{j}" * self.has_path))
+            lines.append(self.link(f"joint.{j}.pos-cmd",
+                                   f"limitcheck.{j}.pos-cmd" + f" sampler.1.pin.{j}" * self.has_path))
         if self.has_path:
             for i, axis in enumerate(self.axes):
                 lines.append(self.link(f"axis.{axis.lower()}.pos-cmd", f"sampler.0.pin.{i}"))
@@ -359,7 +360,8 @@ def print_report(report, picture):
     print(f"Cycle time         {hms(report['cycle_time'])}  ({report['cycle_time']:.3f} s on the machine)")
     print(f"Wall time          {report['wall_time']:.2f} s  "
           f"({report['cycle_time'] / max(report['wall_time'], 1e-9):.0f} times real time)")
-    print(f"Distance           feed {report['distance']['feed']:.1f} {unit}, rapid {report['distance']['rapid']:.1f} {unit}")
+    print(f"Distance           feed {report['distance']['feed']:.1f} {unit}, rapid "
+          f"{report['distance']['rapid']:.1f} {unit}")
     for j, rows in enumerate(report["joints"]):
         parts = []
         for name, worst, limit in rows:
@@ -384,7 +386,8 @@ def main(argv):
     p.add_argument("--picture", help="PNG file of the tool path (default: beside the current folder's name)")
     p.add_argument("--samples", help="write every joint's command of every servo cycle to this file (doubles)")
     p.add_argument("--patience", type=float, default=PATIENCE_S, metavar="S",
-                   help=f"give up when the program makes no progress for S seconds of the machine (default {PATIENCE_S:g})")
+                   help=f"give up when the program makes no progress for S seconds of the machine (default "
+                        f"{PATIENCE_S:g})")
     p.add_argument("--json", help="also write the report to this file")
     o = p.parse_args(argv)
     program = os.path.abspath(o.program)

@@ -6,10 +6,11 @@
         depth = run.stat.probed_position[2]
 
 A sequence has control of the machine until its end: what other programs and panels command is
-refused, except what stops or slows (docs/nml.md). Each command brings the mode it needs. A command ends in exactly one way: done, failed (Failed, with what the operator was told), aborted
-(Aborted: somebody stopped the machine, or another command of this program came between) or late (TimedOut: it goes on, or never
-came through). Only after `done` does the sequence go on; every other end raises, and the
-sequence takes no more commands. Times are those of the controller's clock.
+refused, except what stops or slows (docs/nml.md). Each command brings the mode it needs. A command ends in exactly one
+way: done, failed (Failed, with what the operator was told), aborted (Aborted: somebody stopped the machine, or another
+command of this program came between) or late (TimedOut: it goes on, or never came through). Only after `done` does the
+sequence go on; every other end raises, and the sequence takes no more commands. Times are those of the controller's
+clock.
 """
 import os
 

@@ -207,10 +207,12 @@ class OldConfig:
                     lines += [re.sub(wheel, rf"{joint}\1", line.rstrip("\n") + "\n"), re.sub(wheel, rf"{axis}\1", line)]
             text = "".join(lines)
             text = re.sub(rf"\bhalui\.(?:jog|axis)\.{number}\.", f"halui.axis.{letter}.", text)
-            text = re.sub(rf"\bhalui\.joint\.{number}\.((?:is-)?select(?:ed)?)(?![\w-])", rf"halui.axis.{letter}.\1", text)
+            text = re.sub(rf"\bhalui\.joint\.{number}\.((?:is-)?select(?:ed)?)(?![\w-])",
+                          rf"halui.axis.{letter}.\1", text)
         # at once: [AXIS_2] may become [JOINT_1]
         text = re.sub(r"(\[|\$::|\$)AXIS_(\d)(?=[\](])",
-                      lambda m: f"{m[1]}JOINT_{self.numbers.index(int(m[2]))}" if int(m[2]) in self.numbers else m[0], text)
+                      lambda m: f"{m[1]}JOINT_{self.numbers.index(int(m[2]))}" if int(m[2]) in self.numbers else m[0],
+                      text)
         for old, new in TRAJ_RENAMES.items():
             text = re.sub(rf"(\[TRAJ\]\(?|\$(?:::)?TRAJ\(){old}\b", rf"\g<1>{new}", text)
         text = re.sub(r"\bhalui\.jog\.selected\.", "halui.axis.selected.", text)
@@ -312,7 +314,8 @@ def convert(path, version):
             new[path] = old_config.text(backup.name)
         replace(new)
     except OSError as e:
-        raise UpdateError(f"{path}: version {version} can't be updated to 1.1: {e.filename or path.parent}: {e.strerror} (the folder has to be writable)") from None
+        raise UpdateError(f"{path}: version {version} can't be updated to 1.1: {e.filename or path.parent}: "
+                          f"{e.strerror} (the folder has to be writable)") from None
     return backup
 
 

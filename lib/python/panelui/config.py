@@ -30,7 +30,8 @@ class Section:
 
 @dataclass
 class Button:
-    """kind: radio, toggle or momentary. key: (row, column) or None. states, commands and functions: for False, for True."""
+    """kind: radio, toggle or momentary. key: (row, column) or None. states, commands and
+    functions: for False, for True."""
     name: str
     kind: str
     key: tuple | None
@@ -222,7 +223,8 @@ class Reader:
         self.known(section, GROUP_KEYS)
         if "DEFAULT" not in section.values:
             self.fail(section.line, f"{section.name}: needs DEFAULT = one of its buttons")
-        group = Group(self.name(section), self.choice(section, "OUTPUT", NUMBERS, None), self.text(section, "DEFAULT"), [])
+        group = Group(self.name(section), self.choice(section, "OUTPUT", NUMBERS, None),
+                      self.text(section, "DEFAULT"), [])
         group.buttons = [self.button(part, "radio", group) for part in section.parts.values()]
         names = [button.name for button in group.buttons]
         if group.default not in names:
@@ -254,7 +256,8 @@ class Reader:
         if "HAL_PREFIX" in parts:
             config.prefix = self.text(parts["HAL_PREFIX"], "NAME", config.prefix)
             if not PIN_NAME.fullmatch(config.prefix):
-                self.fail(self.line(parts["HAL_PREFIX"], "NAME"), f"NAME = {config.prefix}: letters, digits and _ . + - are expected")
+                self.fail(self.line(parts["HAL_PREFIX"], "NAME"),
+                          f"NAME = {config.prefix}: letters, digits and _ . + - are expected")
         if "ZMQ_SETUP" in parts:
             section = parts["ZMQ_SETUP"]
             config.topic = self.text(section, "TOPIC", config.topic)

@@ -21,7 +21,8 @@ class Keypad:
         if kind == NOTHING or code == 0:
             return None
         if code > 0xFF or kind not in (DOWN, UP):
-            raise CodeError(f"code 0x{code:02X}: rows and columns 0 to 7, pressed (0xC0) or released (0x80), are expected")
+            raise CodeError(f"code 0x{code:02X}: rows and columns 0 to 7, pressed (0xC0) or released "
+                            "(0x80), are expected")
         key = number >> 3, number & 7
         if kind == UP:
             if key not in self.held:

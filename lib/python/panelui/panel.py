@@ -81,7 +81,8 @@ class Panel:
         on = not self.state[button.name]
         if on and button.group != "0":
             for other in self.config.buttons:
-                if other.kind == "toggle" and other.group == button.group and other is not button and self.state[other.name]:
+                if (other.kind == "toggle" and other.group == button.group and other is not button
+                        and self.state[other.name]):
                     self.change(other, False)
         self.change(button, on)
 

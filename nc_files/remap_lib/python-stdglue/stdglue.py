@@ -248,7 +248,8 @@ def setfeed_epilog(self, **words):
 # ---- cycles ---------------------------------------------------------------------------------
 
 # By plane: name, the words that stay from line to line, axes that have no place in the cycle.
-_PLANES = {1: ("XY", "zr", "uvw"), 2: ("YZ", "xr", "uvw"), 3: ("XZ", "yr", "uvw"), 4: ("UV", "wr", "xyz"), 5: ("VW", "ur", "xyz"), 6: ("UW", "vr", "xyz")}
+_PLANES = {1: ("XY", "zr", "uvw"), 2: ("YZ", "xr", "uvw"), 3: ("XZ", "yr", "uvw"), 4: ("UV", "wr", "xyz"),
+           5: ("VW", "ur", "xyz"), 6: ("UW", "vr", "xyz")}
 
 
 def init_stdglue(self):
@@ -351,7 +352,8 @@ def tool_probe_m6(self, **words):
         if self.current_tool <= 0:
             yield INTERP_OK
             return
-        sensor = {k: self.params["_ini[TOOLSENSOR]" + k] for k in ("X", "Y", "Z", "MAXPROBE", "SEARCH_VEL", "PROBE_VEL", "PROBEHEIGHT")}
+        sensor = {k: self.params["_ini[TOOLSENSOR]" + k]
+                  for k in ("X", "Y", "Z", "MAXPROBE", "SEARCH_VEL", "PROBE_VEL", "PROBEHEIGHT")}
         # The values of the INI file are in its units, #5000 is in those of the program.
         metric = self.params["_metric_machine"] != 0
         work = self.parameters[5000] * (1 if metric == bool(self.params["_metric"]) else 25.4 if metric else 1 / 25.4)

@@ -3,8 +3,8 @@
 """Speed and memory of rs274 and of the gcode module on five kinds of programs.
 
 usage: rs274-bench.py [LINES [COMMAND...]]   (COMMAND: another rs274 to measure, e.g. one before a change)
-Prints, for each kind: lines executed a second, peak memory of the process (at least this script's own). Then the same for
-gcode.load on short lines. Numbers are of this machine and load: compare runs made together.
+Prints, for each kind: lines executed a second, peak memory of the process (at least this script's own). Then the same
+for gcode.load on short lines. Numbers are of this machine and load: compare runs made together.
 """
 import os
 import random
@@ -75,11 +75,13 @@ def main():
                 f.writelines(line + "\n" for line in kind(LINES))
                 f.write("M2\n" if kind is not cycles else "G80\nM2\n")
             wall, cpu, mb, status = measure([*COMMAND, "-t", "t.tbl", "-v", "p.var", "-g", "p.ngc"], "p.ngc")
-            print(f"rs274 {kind.__name__:12} {LINES / cpu:10.0f} lines/s of CPU  {wall:6.2f} s  {mb:6.1f} MB  {'' if status == 0 else 'FAILED'}")
+            print(f"rs274 {kind.__name__:12} {LINES / cpu:10.0f} lines/s of CPU  {wall:6.2f} s  {mb:6.1f} MB  "
+                  f"{'' if status == 0 else 'FAILED'}")
             if kind is short_lines and len(sys.argv) < 3:
                 code = "import gcode; p = gcode.load('p.ngc'); print(len(p.lines))"
                 wall, cpu, mb, status = measure(["/usr/bin/python3", "-c", code], "p.ngc")
-                print(f"gcode {kind.__name__:12} {LINES / cpu:10.0f} lines/s of CPU  {wall:6.2f} s  {mb:6.1f} MB  {'' if status == 0 else 'FAILED'}")
+                print(f"gcode {kind.__name__:12} {LINES / cpu:10.0f} lines/s of CPU  {wall:6.2f} s  {mb:6.1f} MB  "
+                      f"{'' if status == 0 else 'FAILED'}")
 
 
 main()

@@ -66,8 +66,9 @@ def small_tree(folder: Path):
     for module in ("hal_lib", "threads", "and2", "lateness"):
         shutil.copy2(TOP / f"rtlib/{module}.so", folder / "rtlib")
     (folder / "empties.c").write_text(EMPTY)
-    subprocess.run([*os.environ.get("CC", "gcc").split(), "-O2", "-std=gnu11", "-fPIC", "-shared", "-DRTAPI", "-DUSPACE",
-                    f"-I{TOP}/include", "-o", folder / "rtlib/empties.so", folder / "empties.c"], check=True)
+    subprocess.run([*os.environ.get("CC", "gcc").split(), "-O2", "-std=gnu11", "-fPIC", "-shared",
+                    "-DRTAPI", "-DUSPACE", f"-I{TOP}/include", "-o", folder / "rtlib/empties.so", folder / "empties.c"],
+                    check=True)
 
 
 def cycle_instructions(folder: Path, functions: list[str]) -> tuple[int, int]:
@@ -102,7 +103,8 @@ def instructions(folder: Path):
     # A hundred of each, as what the threads do beside (waiting for their turn) differs by about a thousand a cycle.
     for title, name, share in (("100 empty functions", "empty.{:02d}", 1), ("one and2 (of 100)", "and2.{}", 100)):
         total, cycles = cycle_instructions(folder, [name.format(i) for i in range(100)])
-        print(f"cycle: {title}: {(total - none * cycles // beats) / cycles / share:.0f} instructions more than an empty thread's")
+        print(f"cycle: {title}: {(total - none * cycles // beats) / cycles / share:.0f} instructions more than "
+              "an empty thread's")
 
 
 def wake_up(folder: Path):

@@ -91,7 +91,8 @@ class Offsets:
                                "and the motion controller too")
         for axis, joint in joints.items():
             if not query.pin(f"mv.offset-in-{joint}"):
-                raise Unusable(f"no pin mv.offset-in-{joint} for axis {axis}: loadrt moveoff needs personality={joint + 1}")
+                raise Unusable(f"no pin mv.offset-in-{joint} for axis {axis}: loadrt moveoff needs "
+                               f"personality={joint + 1}")
         self.needs_pause = not options.no_pause_requirement
         if (self.needs_pause or options.mode == "onpause") and not query.pin(PAUSED):
             raise Unusable(f"no pin {PAUSED}: load halui ([HAL]HALUI = halui)")
@@ -247,13 +248,15 @@ class Window:
         self.increment = tk.DoubleVar(root, value=options.inc[0])
         self.enable = tk.BooleanVar(root, value=offsets.enabled())
         self.backtrack = tk.BooleanVar(root, value=bool(hal.get_p("mv.backtrack-enable")))
-        # Pixels: points depend on what the display says of its size. A font with a name becomes smaller where the screen has no room.
+        # Pixels: points depend on what the display says of its size. A font with a name becomes smaller where the
+        # screen has no room.
         self.font = tkinter.font.Font(root, family="DejaVu Sans", size=-self.style.px(options.size * PX_PER_POINT))
         self.values, self.entries, self.controls, self.countdown = {}, {}, [], None
         root.title("moveoff_gui")
         for kind in ("TCheckbutton", "TRadiobutton"):
             ttk.Style(root).configure(f"Offsets.{kind}", font=self.font)
-        self.status = tk.Label(root, foreground="black", width=len(f"{_(LIMIT)} --- {_(MOTION_OFF)}"), relief="ridge", font=self.font)
+        self.status = tk.Label(root, foreground="black", width=len(f"{_(LIMIT)} --- {_(MOTION_OFF)}"), relief="ridge",
+                               font=self.font)
         self.status.pack(fill="x", padx=6, pady=6)
         if not offsets.display_only:
             self._switches()
@@ -275,8 +278,8 @@ class Window:
         from tkinter import ttk
         frame = self.tk.Frame(self.root)
         frame.pack(fill="x", padx=6)
-        self.switch = ttk.Checkbutton(frame, text=_("Enable Offsets"), variable=self.enable, style="Offsets.TCheckbutton",
-                                      command=self.switched)
+        self.switch = ttk.Checkbutton(frame, text=_("Enable Offsets"), variable=self.enable,
+                                      style="Offsets.TCheckbutton", command=self.switched)
         self.switch.pack(side="left")
         self.backtracking = ttk.Checkbutton(
             frame, text=_("Backtrack On"), variable=self.backtrack, style="Offsets.TCheckbutton",
@@ -290,7 +293,8 @@ class Window:
         self.values[axis].grid(row=row, column=1, padx=2, pady=2)
         if self.offsets.display_only:
             return
-        buttons = [("-", lambda: self.step(axis, -1)), ("+", lambda: self.step(axis, 1)), ("0", lambda: self.set(axis, 0))]
+        buttons = [("-", lambda: self.step(axis, -1)), ("+", lambda: self.step(axis, 1)),
+                   ("0", lambda: self.set(axis, 0))]
         for column, (text, action) in enumerate(buttons, 2):
             button = tk.Button(table, text=text, width=2, font=self.font, command=action)
             button.grid(row=row, column=column, padx=1)
@@ -308,7 +312,8 @@ class Window:
         frame = self.tk.Frame(self.root)
         frame.pack(fill="x", padx=6)
         self.tk.Label(frame, text=_("Increment"), font=self.font).pack(side="left")
-        self.radios = [ttk.Radiobutton(frame, text=f"{size:g}", value=size, variable=self.increment, style="Offsets.TRadiobutton")
+        self.radios = [ttk.Radiobutton(frame, text=f"{size:g}", value=size, variable=self.increment,
+                                       style="Offsets.TRadiobutton")
                        for size in self.options.inc]
         for radio in self.radios:
             radio.pack(side="left", padx=self.style.px(6))
@@ -406,7 +411,8 @@ class Window:
         if not self.countdown:
             self.countdown = self.tk.Toplevel(self.root)
             self.countdown.title(_("Resume"))
-            self.countdown.protocol("WM_DELETE_WINDOW", cancel if not self.options.no_cancel_autoresume else lambda: None)
+            self.countdown.protocol("WM_DELETE_WINDOW",
+                                    cancel if not self.options.no_cancel_autoresume else lambda: None)
             self.seconds = self.tk.Label(self.countdown, font=self.font, padx=20, pady=10)
             self.seconds.pack()
             if not self.options.no_cancel_autoresume:

@@ -184,7 +184,8 @@ def main():
     try:
         stream = hal.stream(component, hal.sampler_base + options.channel, "u")
     except Exception as error:
-        fail(f"channel {options.channel}: {error}: a sampler with cfg=u must be loaded (loadrt sampler depth=1024 cfg=u)")
+        fail(f"channel {options.channel}: {error}: a sampler with cfg=u must be loaded (loadrt sampler "
+             "depth=1024 cfg=u)")
     panel.make_pins(owner, settings)
     board = panel.Panel(owner, settings, caller, make_zmq(settings))
     owner.ready()

@@ -24,7 +24,8 @@ import hal
 
 NAME = "shuttle"
 HIDIOCGRAWINFO = 0x80084803     # struct hidraw_devinfo: bus, vendor, product
-MODELS = {(0x0b33, 0x0020): (5, 0x0010), (0x05f3, 0x0240): (13, 0x0001), (0x0b33, 0x0030): (15, 0x0001)}   # buttons, mask of the first
+# buttons, mask of the first
+MODELS = {(0x0b33, 0x0020): (5, 0x0010), (0x05f3, 0x0240): (13, 0x0001), (0x0b33, 0x0030): (15, 0x0001)}
 REPORT_BYTES = 5
 WHEEL_MOST = 7.0
 
@@ -48,7 +49,8 @@ class Device:
             component.newpin(f"{number}.button-{b}", hal.HAL_BIT, hal.HAL_OUT)
             component.newpin(f"{number}.button-{b}-not", hal.HAL_BIT, hal.HAL_OUT)
             component[f"{number}.button-{b}-not"] = True
-        for name, kind in (("counts", hal.HAL_S32), ("spring-wheel-f", hal.HAL_FLOAT), ("spring-wheel-s32", hal.HAL_S32)):
+        for name, kind in (("counts", hal.HAL_S32), ("spring-wheel-f", hal.HAL_FLOAT),
+                           ("spring-wheel-s32", hal.HAL_S32)):
             component.newpin(f"{number}.{name}", kind, hal.HAL_OUT)
 
     def take(self, report):

@@ -47,7 +47,8 @@ def number(calculator, text, kind):
     try:
         return float(result) if kind == "float" else int(str(result), 0)
     except ValueError:
-        raise NotWritable((_("%r is %s: a number is needed") if kind == "float" else _("%r is %s: a whole number is needed")) % (text, result)) from None
+        raise NotWritable((_("%r is %s: a number is needed") if kind == "float"
+                           else _("%r is %s: a whole number is needed")) % (text, result)) from None
 
 
 class Row:
@@ -86,7 +87,8 @@ class Row:
             self.mode = tk.StringVar(value=mode)
             for name, title in zip(Button.MODES, MODES):
                 ttk.Radiobutton(self.frame, text=_(title), value=name, variable=self.mode,
-                                command=lambda: setattr(button, "mode", self.mode.get())).pack(side="left", padx=self.style.px(4))
+                                command=lambda: setattr(button, "mode",
+                                                        self.mode.get())).pack(side="left", padx=self.style.px(4))
         else:
             ttk.Label(self.frame, text=_(MODES[Button.MODES.index(mode)])).pack(side="left", padx=self.style.px(6))
 
@@ -120,7 +122,8 @@ class Row:
 
     def numeric(self, _mode, _choice):
         ttk = self.ttk
-        self.value = ttk.Label(self.frame, width=24, anchor="e", relief="sunken", style="Value.TLabel", padding=self.style.px(3))
+        self.value = ttk.Label(self.frame, width=24, anchor="e", relief="sunken", style="Value.TLabel",
+                               padding=self.style.px(3))
         self.value.pack(side="left")
         self.entry = ttk.Entry(self.frame, width=14, justify="right")
         self.entry.insert(0, self.item.text().split()[0])
@@ -132,7 +135,8 @@ class Row:
             actions += [("-", lambda: self.item.step(-1)), ("+", lambda: self.item.step(1))]
         self.buttons = {}
         for name, action in actions:
-            self.buttons[name] = ttk.Button(self.frame, text=_(name), style="Small.TButton", command=lambda a=action: self.try_to(a))
+            self.buttons[name] = ttk.Button(self.frame, text=_(name), style="Small.TButton",
+                                            command=lambda a=action: self.try_to(a))
             self.buttons[name].pack(side="left")
 
     def enter(self):

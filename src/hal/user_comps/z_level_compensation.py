@@ -91,7 +91,8 @@ class Map:
             self.heights = self.smooth(grid, places, heights) if method == "cubic" else None
             if self.heights is None:
                 self.heights = self.flat(grid, places, heights)
-        # FP-075: a smooth surface may overshoot between its points, a correction must not (0 is where nothing is known).
+        # FP-075: a smooth surface may overshoot between its points, a correction must not (0
+        # is where nothing is known).
         self.heights = self.heights.clip(min(0.0, heights.min()), max(0.0, heights.max()))
 
     @staticmethod

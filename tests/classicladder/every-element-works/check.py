@@ -143,8 +143,8 @@ def main() -> int:
         outputs = [(f"classicladder.0.out-{n:02d}", "bit") for n in range(16)]
         outputs += [(f"classicladder.0.s32out-{n:02d}", "s32") for n in range(2)]
         rows = [" ".join(map(str, stimulus(k))) for k in range(CYCLES)]
-        part = Part(f"classicladder_rt numPhysOutputs=16\nloadusr -w classicladder --nogui {path}", [], ["classicladder.0.refresh"],
-                    inputs, outputs, rows)
+        part = Part(f"classicladder_rt numPhysOutputs=16\nloadusr -w classicladder --nogui {path}", [],
+                    ["classicladder.0.refresh"], inputs, outputs, rows)
         samples = Session().run([part])[0]
     model, mistakes = Model(), 0
     for k, got in enumerate(samples):

@@ -100,8 +100,8 @@ def run(text: str, inputs: list[tuple[str, str]], outputs: list[tuple[str, str]]
         def pins(some: list[tuple[str, str]]) -> list[tuple[str, str]]:
             return [(f"classicladder.{name}" if "ladder-state" in name else f"classicladder.0.{name}", kind)
                     for name, kind in some]
-        work = Part(f"classicladder_rt {load}\nloadusr -w classicladder --nogui {path}", [], ["classicladder.0.refresh"],
-                    pins(inputs), pins(outputs), rows)
+        work = Part(f"classicladder_rt {load}\nloadusr -w classicladder --nogui {path}", [],
+                    ["classicladder.0.refresh"], pins(inputs), pins(outputs), rows)
         return Session().run([work])[0]
 
 

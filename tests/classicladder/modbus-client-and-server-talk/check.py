@@ -128,7 +128,8 @@ def main() -> None:
             hal("halcmd", "loadrt", "threads")
             hal("halcmd", "addf", "classicladder.0.refresh", "thread1")
             hal("halcmd", "start")
-            program = subprocess.Popen(["classicladder", "--modslave", "--modmaster", f"--modbus_port={port}", str(path)])
+            program = subprocess.Popen(["classicladder", "--modslave", "--modmaster",
+                                        f"--modbus_port={port}", str(path)])
             for _ in range(200):
                 try:
                     Client(port)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The ladder's Modbus client polls a slave on a pseudo terminal (RTU): every request, check sums, errors and silence."""
+"""The ladder's Modbus client polls a slave on a pseudo terminal (RTU): every request, check
+sums, errors and silence."""
 
 from __future__ import annotations
 
@@ -19,19 +20,22 @@ sys.path.insert(0, "../lib")
 from clp import COIL, NO, OPERATE, line, project, row, wide  # noqa: E402
 
 DEADLINE_S = 30
+# coils, inverted, into %B12..; holding registers into %W10, %W11
 PROJECT = project(
     [row([(NO, "70/10")], (COIL, "60/0")), row([(NO, "50/1")], (COIL, "0/1")),
      {**line(0, 7), **wide(9, 0, OPERATE, 0)}, {**line(0, 7), **wide(9, 0, OPERATE, 1)}],
     {"arithmetic_expressions.csv": ["0000,@200/3@:=4660", "0001,@280/0@:=@200/7@"],
-     "com_params.txt": ["MODBUS_MASTER_SERIAL_PORT={port}", "MODBUS_MASTER_SERIAL_SPEED=19200", "MODBUS_MASTER_SERIAL_PARITY=2",
-                        "MODBUS_MASTER_TIME_INTER_FRAME=2", "MODBUS_MASTER_TIME_OUT_RECEIPT=400", "MODBUS_ELEMENT_OFFSET=0",
-                        "MODBUS_DEBUG_LEVEL=0", "MODBUS_MAP_INPUT=0", "MODBUS_MAP_COIL_READ=0", "MODBUS_MAP_COIL_WRITE=0",
-                        "MODBUS_MAP_HOLDING=200", "MODBUS_MAP_REGISTER_READ=200", "MODBUS_MAP_REGISTER_WRITE=200"],
+     "com_params.txt": ["MODBUS_MASTER_SERIAL_PORT={port}", "MODBUS_MASTER_SERIAL_SPEED=19200",
+                        "MODBUS_MASTER_SERIAL_PARITY=2", "MODBUS_MASTER_TIME_INTER_FRAME=2",
+                        "MODBUS_MASTER_TIME_OUT_RECEIPT=400", "MODBUS_ELEMENT_OFFSET=0",
+                        "MODBUS_DEBUG_LEVEL=0", "MODBUS_MAP_INPUT=0", "MODBUS_MAP_COIL_READ=0",
+                        "MODBUS_MAP_COIL_WRITE=0", "MODBUS_MAP_HOLDING=200", "MODBUS_MAP_REGISTER_READ=200",
+                        "MODBUS_MAP_REGISTER_WRITE=200"],
      "modbusioconf.csv": ["#VER=1.0", "3,0,100,10,0,2",     # read inputs 100.. into %B2..11
                           "3,1,5,3,0,1",                    # write coils 5.. from %B1..3
                           "4,2,7,1,0,7",                    # read input register 7 of slave 4 into %W7
                           "3,3,9,2,0,3",                    # write holding registers 9, 10 from %W3, %W4
-                          "3,4,6,4,1,12", "3,5,1,2,0,10",   # coils, inverted, into %B12..; holding registers into %W10, %W11
+                          "3,4,6,4,1,12", "3,5,1,2,0,10",
                           "3,6,0,1,0,0", "3,7,0,1,0,0"]})    # status, diagnostics
 
 

@@ -9,7 +9,8 @@ import random
 import sys
 
 sys.path[:0] = ["../lib"]
-from clp import (CALL, COIL, COIL_NC, COMPARE, COUNTER, IEC, JUMP, MONOSTABLE, NC, NO, OPERATE, RESET, SET, TIMER, WIRE,  # noqa: E402
+# noqa: E402
+from clp import (CALL, COIL, COIL_NC, COMPARE, COUNTER, IEC, JUMP, MONOSTABLE, NC, NO, OPERATE, RESET, SET, TIMER, WIRE,
                  bits, block, cell, compare, line, project, row, rung_part, run, step, transition, wide)
 
 R = random.Random(11)
@@ -45,8 +46,9 @@ def conveyor() -> None:
          (9, 0): "50-0-60/1", (9, 1): "50-0-60/2"},
         {**cell(0, 0, NO, "50/3"), **block(2, 0, MONOSTABLE, 0, 2), **line(3, 9), (9, 0): "50-0-60/3"},
         # counter: reset %I1, preset %I2, up %I3, down %I4
-        {**{k: v for n, i in enumerate((1, 2, 3, 4)) for k, v in cell(0, n, NO, f"50/{i}").items()}, **block(2, 0, COUNTER, 0, 4),
-         **line(3, 9), **line(3, 9, 1), **line(3, 9, 2), (9, 0): "50-0-60/4", (9, 1): "50-0-60/5", (9, 2): "50-0-60/6"},
+        {**{k: v for n, i in enumerate((1, 2, 3, 4)) for k, v in cell(0, n, NO, f"50/{i}").items()},
+         **block(2, 0, COUNTER, 0, 4), **line(3, 9), **line(3, 9, 1), **line(3, 9, 2), (9, 0): "50-0-60/4",
+         (9, 1): "50-0-60/5", (9, 2): "50-0-60/6"},
         # IEC timers: off delay, pulse, on delay
         {**cell(0, 0, NO, "50/5"), **block(2, 0, IEC, 0, 2), **line(3, 9), (9, 0): "50-0-60/7"},
         {**cell(0, 0, NO, "50/6"), **block(2, 0, IEC, 1, 2), **line(3, 9), (9, 0): "50-0-60/8"},
@@ -123,7 +125,8 @@ def conveyor() -> None:
                 self.ton = 1
             empty, full = self.c == 9999 and self.previous == 0, self.c == 0 and self.previous == 9999
             return [self.q0, self.td, self.tr, self.mq, empty, self.c == 4, full, self.tof, self.tp, self.ton,
-                    self.td and self.c != 4, self.tr and self.mq, not self.ton, self.t // 100, self.c, self.tpv * 1000 + 2]
+                    self.td and self.c != 4, self.tr and self.mq, not self.ton, self.t // 100, self.c,
+                    self.tpv * 1000 + 2]
     cycles = 4000
     columns = spells(1, cycles, 60, 300) + spells(1, cycles, 5, 500) + spells(1, cycles, 10, 90) + spells(2, cycles, 1, 120) \
         + spells(1, cycles, 20, 160) + spells(1, cycles, 30, 1500)
@@ -146,13 +149,14 @@ def press() -> None:
         chart += transition(number, before, after, condition, page)
     chart += ["N0,0,3,4,both cylinders, then back"]
     shown = [0, 1, 2, 3, 4, 5, 10, 11, 12]
-    rungs = [row([(NC, "50/4")], (COIL, "0/0"))] + [row([(NO, f"30/{x}")], (COIL, f"60/{n}")) for n, x in enumerate(shown)]
+    rungs = [row([(NC, "50/4")], (COIL, "0/0"))] + [row([(NO, f"30/{x}")], (COIL, f"60/{n}"))
+                                                    for n, x in enumerate(shown)]
     rungs += [{**line(0, 7), **wide(9, 0, OPERATE, n)} for n in range(2)]
     last = len(rungs) - 1
     text = project(rungs, {"sequential.csv": chart, "arithmetic_expressions.csv": [
         "#VER=2.0", "0000,@280/0@:=@220/1@", "0001,@280/1@:=@220/11@"],
-        "sections.csv": ["#VER=1.0", "#NAME000=Press", "#NAME001=Feeder", "#NAME002=Lamps", "000,1,-1,0,0,0", "001,1,-1,0,0,1",
-                         f"002,0,-1,0,{last},0"]})
+        "sections.csv": ["#VER=1.0", "#NAME000=Press", "#NAME001=Feeder", "#NAME002=Lamps", "000,1,-1,0,0,0",
+                         "001,1,-1,0,0,1", f"002,0,-1,0,{last},0"]})
 
     class Model:
         active = {0, 10}
@@ -183,21 +187,24 @@ def press() -> None:
     columns[1][700:] = [0] * 2300
     columns[5][700] = 1
     rows = [" ".join(map(str, values)) for values in zip(*columns)]
-    done("press", run(text, bits("in", range(7)), bits("out", range(9)) + bits("s32out", range(2)), rows), Model(), rows)
+    done("press", run(text, bits("in", range(7)), bits("out", range(9)) + bits("s32out", range(2)), rows),
+         Model(), rows)
 
 
 # ---- sections, subroutines in subroutines, jumps -----------------------------------------------
 
 def jumps() -> None:
     count = [{**line(0, 7), **wide(9, 0, OPERATE, n)} for n in range(5)]
-    main = [row([(NO, "50/0")], (CALL, "0/7")), row([(NO, "50/1")], (JUMP, "0/3")), count[0], row([(NO, "50/2")], (CALL, "0/8"))]
+    main = [row([(NO, "50/0")], (CALL, "0/7")), row([(NO, "50/1")], (JUMP, "0/3")), count[0],
+            row([(NO, "50/2")], (CALL, "0/8"))]
     inner, outer = [count[1]], [count[2], row([(NO, "50/3")], (CALL, "0/7"))]
     second = [count[3], row([(NO, "50/4")], (JUMP, "0/99")), count[4]]
     text = project({-1: main, 7: inner, 8: outer}, {"arithmetic_expressions.csv": ["#VER=2.0"] + [
         f"{n:04d},@280/{n}@:=@280/{n}@+1" for n in range(5)]})
     first = len(main + inner + outer)
     text = text.replace("_FILE-rung_0.csv", "".join(
-        rung_part(first + n, cells, first + n + 1 if n < 2 else -1) for n, cells in enumerate(second)) + "_FILE-rung_0.csv", 1)
+        rung_part(first + n, cells, first + n + 1 if n < 2 else -1) for n, cells in enumerate(second))
+        + "_FILE-rung_0.csv", 1)
     text = text.replace("_/FILE-sections.csv", f"003,0,-1,{first},{first + 2},0\n_/FILE-sections.csv")
 
     class Model:
@@ -217,8 +224,10 @@ def jumps() -> None:
                 self.n[4] += 1
             return self.n
     rows = [" ".join(map(str, values)) for values in zip(*spells(5, 400, 1, 20))]
-    done("subroutines and jumps", run(text, bits("in", range(5)), bits("s32out", range(5)), rows, "numRungs=120"), Model(), rows)
-    endless = project([count[0], row([(NO, "50/0")], (JUMP, "0/1"))], {"arithmetic_expressions.csv": ["0000,@280/0@:=@280/0@+1"]})
+    done("subroutines and jumps", run(text, bits("in", range(5)), bits("s32out", range(5)), rows, "numRungs=120"),
+         Model(), rows)
+    endless = project([count[0], row([(NO, "50/0")], (JUMP, "0/1"))],
+                      {"arithmetic_expressions.csv": ["0000,@280/0@:=@280/0@+1"]})
     rows = ["0"] * 5 + ["1"] + ["0"] * 5
     left = iter([1, 2, 3, 4, 5] + [6] * 6)     # outputs hold from there on
     done("an endless jump stops the ladder", run(endless, bits("in", range(1)), bits("s32out", range(1)), rows),
@@ -238,14 +247,17 @@ def int32(v: int) -> int:
 def arithmetic() -> None:
     a, b = "@270/0@", "@270/1@"
     forms = [
-        (f"{a}+{b}*2", lambda a, b: a + b * 2), (f"({a}+{b})*2", lambda a, b: (a + b) * 2), (f"{a}-{b}-1", lambda a, b: a - b - 1),
-        (f"{a}/3", lambda a, b: trunc(a, 3)), (f"{a}%7", lambda a, b: a - 7 * trunc(a, 7)), (f"{a}&$0F|{b}", lambda a, b: (a & 15) | b),
+        (f"{a}+{b}*2", lambda a, b: a + b * 2), (f"({a}+{b})*2", lambda a, b: (a + b) * 2),
+        (f"{a}-{b}-1", lambda a, b: a - b - 1), (f"{a}/3", lambda a, b: trunc(a, 3)),
+        (f"{a}%7", lambda a, b: a - 7 * trunc(a, 7)), (f"{a}&$0F|{b}", lambda a, b: (a & 15) | b),
         (f"!{a}", lambda a, b: int(not a)), (f"{a}^1", lambda a, b: int32(a * a)), (f"-{a}+-3", lambda a, b: -a - 3),
-        ("$FF-'A'", lambda a, b: 255 - 65), (f"ABS({a})", lambda a, b: abs(a)), (f"MINI({a},{b},5)", lambda a, b: min(a, b, 5)),
+        ("$FF-'A'", lambda a, b: 255 - 65), (f"ABS({a})", lambda a, b: abs(a)),
+        (f"MINI({a},{b},5)", lambda a, b: min(a, b, 5)),
         (f"MAXI({a},{b})", lambda a, b: max(a, b)), (f"MOY({a},{b})", lambda a, b: trunc(a + b, 2)),
-        (f"AVG({a},{b},@200/0@)", lambda a, b: trunc(a + b, 3)), (f" ( {a} - 1 ) * ( {b} + 1 ) ", lambda a, b: (a - 1) * (b + 1))]
-    tests = [("<", lambda a, b: a < b), (">", lambda a, b: a > b), ("=", lambda a, b: a == b), ("<=", lambda a, b: a <= b),
-             (">=", lambda a, b: a >= b), ("<>", lambda a, b: a != b)]
+        (f"AVG({a},{b},@200/0@)", lambda a, b: trunc(a + b, 3)),
+        (f" ( {a} - 1 ) * ( {b} + 1 ) ", lambda a, b: (a - 1) * (b + 1))]
+    tests = [("<", lambda a, b: a < b), (">", lambda a, b: a > b), ("=", lambda a, b: a == b),
+             ("<=", lambda a, b: a <= b), (">=", lambda a, b: a >= b), ("<>", lambda a, b: a != b)]
     expressions = [f"{n:04d},@200/{n + 1}@:={text}" for n, (text, _) in enumerate(forms)]
     base = len(forms)
     expressions += [f"{base + n:04d},{a}{sign}{b}" for n, (sign, _) in enumerate(tests)]
@@ -253,7 +265,8 @@ def arithmetic() -> None:
     expressions += [f"{copies + n:04d},@280/{n}@:=@200/{n + 1}@" for n in range(base)]
     expressions += [f"{copies + base:04d},#not yet"]
     rungs = [{**line(0, 7), **wide(9, 0, OPERATE, n)} for n in range(base)]
-    rungs += [{**cell(0, 0, WIRE), **wide(3, 0, COMPARE, base + n), **line(4, 9), (9, 0): f"50-0-60/{n}"} for n in range(len(tests))]
+    rungs += [{**cell(0, 0, WIRE), **wide(3, 0, COMPARE, base + n), **line(4, 9), (9, 0): f"50-0-60/{n}"}
+              for n in range(len(tests))]
     rungs += [{**line(0, 7), **wide(9, 0, OPERATE, copies + n)} for n in range(base)]
     rungs += [{**cell(0, 0, WIRE), **wide(3, 0, COMPARE, number), **line(4, 9), (9, 0): f"50-0-60/{n}"}
               for n, number in ((6, copies + base), (7, 99))]      # a comment and an empty one are false
@@ -265,7 +278,8 @@ def arithmetic() -> None:
         x, y = int(x), int(y)
         return [f(x, y) for _, f in tests] + [0, 0] + [f(x, y) for _, f in forms[:13]]
     load = "numArithmExpr=120 numWords=40 numS32out=20 numBits=40"
-    done("arithmetic", run(text, bits("s32in", range(2)), bits("out", range(8)) + bits("s32out", range(13)), rows, load), model, rows)
+    done("arithmetic", run(text, bits("s32in", range(2)), bits("out", range(8)) + bits("s32out", range(13)), rows,
+                           load), model, rows)
     rest = run(text, bits("s32in", range(2)), bits("s32out", range(13, 16)), rows, load)
     done("more arithmetic", rest, lambda x, y: [f(int(x), int(y)) for _, f in forms[13:]], rows)
 
@@ -275,13 +289,15 @@ def arithmetic() -> None:
 def others() -> None:
     old = ["@310/0@:=@300/0@*2", "@280/0@=@300/1@"]       # expressions by their line, no #VER
     rungs = [{**line(0, 7), **wide(9, 0, OPERATE, n)} for n in range(2)]
-    rungs += [row([(NO, "50/0[270/0]")], (COIL, "0/0[270/0]")), row([(NO, "0/2")], (SET, "60/0")), row([(NO, "50/0")], (RESET, "60/0")),
-              row([(NO, "75/0")], (COIL, "60/1"))]
+    rungs += [row([(NO, "50/0[270/0]")], (COIL, "0/0[270/0]")), row([(NO, "0/2")], (SET, "60/0")),
+              row([(NO, "50/0")], (RESET, "60/0")), row([(NO, "75/0")], (COIL, "60/1"))]
     text = project(rungs, {
         "arithmetic_expressions.csv": old, "ioconf.csv": ["#VER=1.0", "0,0,0,0,0,8,0", "1,0,0,0,0,8,0"],
         "symbols.csv": ["#VER=1.0", "%I0,START,the green one", "%Q0,LAMP,"], "plans.txt": ["; of somebody's tool", "x"],
-        "modbusioconf.csv": ["#VER=1.0"], "com_params.txt": ["MODBUS_MASTER_SERIAL_PORT=/dev/ttyS0", "MODBUS_MASTER_SERIAL_SPEED=19200"]})
-    rows = [f"{n / 4 - 3} {n * 1.7 - 9} {n % 3} {int(n % 7 == 0)} {int(n % 5 == 2)} {int(n % 4 == 1)}" for n in range(60)]
+        "modbusioconf.csv": ["#VER=1.0"],
+        "com_params.txt": ["MODBUS_MASTER_SERIAL_PORT=/dev/ttyS0", "MODBUS_MASTER_SERIAL_SPEED=19200"]})
+    rows = [f"{n / 4 - 3} {n * 1.7 - 9} {n % 3} {int(n % 7 == 0)} {int(n % 5 == 2)} {int(n % 4 == 1)}"
+            for n in range(60)]
 
     class Model:
         q0 = b2 = 0

@@ -21,24 +21,28 @@ def setp(pin, value):
     halcmd("setp", "d." + pin, str(value))
 
 
-program = subprocess.Popen(["gs2_vfd", "-d", drive.path, "-n", "d", "-t", "3", "-p", "n", "-r", "5", "-A", "4.5", "-R", "-X"], stdout=subprocess.PIPE, text=True)
+program = subprocess.Popen(["gs2_vfd", "-d", drive.path, "-n", "d", "-t", "3", "-p", "n", "-r", "5", "-A", "4.5", "-R",
+                            "-X"], stdout=subprocess.PIPE, text=True)
 print(program.stdout.readline().strip().replace(drive.path, "PTY"))
 until(lambda: "d" in halcmd("list", "comp").split(), "loaded")
 print(pins("d.*"))
-print({name: get(name) for name in ("error-count", "loop-time", "retval", "tolerance", "nameplate-HZ", "nameplate-RPM", "ack-delay", "spindle-fwd", "enable")})
+print({name: get(name) for name in ("error-count", "loop-time", "retval", "tolerance", "nameplate-HZ", "nameplate-RPM",
+                                    "ack-delay", "spindle-fwd", "enable")})
 setp("loop-time", 0.005)
 print("disabled:", drive.asked)
 setp("enable", 1)
 until(lambda: get("initialized") == "TRUE", "set up")
 print([drive.holding[n] for n in (0x0101, 0x0100, 0x0102, 0x0605)])
 until(lambda: get("firmware-revision") == "104", "read")
-print({name: get(name) for name in ("status-1", "status-2", "frequency-command", "frequency-out", "output-current", "DC-bus-volts", "output-voltage", "motor-RPM", "scale-frequency", "power-factor",
+print({name: get(name) for name in ("status-1", "status-2", "frequency-command", "frequency-out", "output-current",
+                                    "DC-bus-volts", "output-voltage", "motor-RPM", "scale-frequency", "power-factor",
                                     "load-percentage", "is-stopped", "at-speed")})
 print("== runs")
 setp("speed-command", -865)
 setp("spindle-fwd", 0)
 setp("spindle-on", 1)
-until(lambda: (drive.holding[SPEED], drive.holding[RUN], drive.holding[DIRECTION]) == (300, 1, 1) and get("spindle-rev") == "TRUE", "reverse")
+until(lambda: (drive.holding[SPEED], drive.holding[RUN], drive.holding[DIRECTION]) == (300, 1, 1)
+      and get("spindle-rev") == "TRUE", "reverse")
 drive.holding[STATUS + 3] = 299
 until(lambda: get("frequency-out") == "29.9", "nearly")
 print(get("at-speed"), get("is-stopped"))
@@ -71,7 +75,8 @@ setp("enable", 0)
 until(lambda: get("spindle-on") == "FALSE", "disabled while the line is dead")
 print(get("initialized"), get("at-speed"))
 drive.silent = False
-until(lambda: drive.holding[RUN] == 0 and get("spindle-on") == "FALSE" and get("initialized") == "FALSE", "disabled: stops")
+until(lambda: drive.holding[RUN] == 0 and get("spindle-on") == "FALSE" and get("initialized") == "FALSE",
+      "disabled: stops")
 setp("enable", 1)
 until(lambda: get("initialized") == "TRUE", "enabled")
 print("still off:", drive.holding[RUN])
@@ -80,6 +85,8 @@ until(lambda: drive.holding[RUN] == 1, "on")
 program.send_signal(signal.SIGTERM)
 print("ends with", program.wait(20), "run", drive.holding[RUN])
 print("== options")
-for options in (["-r", "1"], ["-r", "115"], ["-p", "x"], ["-b", "9"], ["-t", "0"], ["-t", "255"], ["-n", "x" * 28], ["-A", "x"], ["-q"], ["-h"], ["-d", "/nothing"]):
-    done = subprocess.run(["gs2_vfd", *options, *([] if "-d" in options else ["-d", "/none"])], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=20)
+for options in (["-r", "1"], ["-r", "115"], ["-p", "x"], ["-b", "9"], ["-t", "0"], ["-t", "255"], ["-n", "x" * 28],
+                ["-A", "x"], ["-q"], ["-h"], ["-d", "/nothing"]):
+    done = subprocess.run(["gs2_vfd", *options, *([] if "-d" in options else ["-d", "/none"])], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, timeout=20)
     print(options, done.returncode, done.stderr.splitlines()[-1:])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""hy_vfd with a drive of its protocol on a pty: set-up, both directions, speed, a disturbed line, disabling, the end, options."""
+"""hy_vfd with a drive of its protocol on a pty: set-up, both directions, speed, a disturbed
+line, disabling, the end, options."""
 import os
 import pty
 import signal
@@ -67,14 +68,17 @@ def setp(pin, value):
     halcmd("setp", "hy_vfd." + pin, str(value))
 
 
-program = subprocess.Popen(["hy_vfd", "-d", drive.path, "-p", "n", "-f", "100", "-S", "24000", "--register", "PD001=2", "--regdump"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+program = subprocess.Popen(["hy_vfd", "-d", drive.path, "-p", "n", "-f", "100", "-S", "24000", "--register", "PD001=2",
+                            "--regdump"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 until(lambda: "hy_vfd" in halcmd("list", "comp").split(), "loaded")
 print(pins("hy_vfd.*"))
 print("waits:", drive.asked)
 setp("enable", 1)
 until(lambda: get("hycomm-ok") == "TRUE" and get("Tmp") == "40", "enabled")
-print({n: drive.parameters[n] for n in (1, 5, 11, 144)}, {name: get(name) for name in ("max-freq", "base-freq", "freq-lower-limit", "rated-motor-voltage", "rated-motor-current", "rated-motor-rev",
-                                                                              "motor-poles", "OutA", "DCV", "ACV", "Cont", "CNTR")})
+print({n: drive.parameters[n] for n in (1, 5, 11, 144)},
+      {name: get(name) for name in ("max-freq", "base-freq", "freq-lower-limit", "rated-motor-voltage",
+                                    "rated-motor-current", "rated-motor-rev", "motor-poles", "OutA", "DCV", "ACV",
+                                    "Cont", "CNTR")})
 print("== runs")
 setp("speed-command", 12000)
 setp("spindle-on", 1)
@@ -83,7 +87,9 @@ print("without a direction:", drive.control)
 setp("spindle-forward", 1)
 until(lambda: drive.control == 1 and drive.frequency == 20001, "forward")
 until(lambda: get("spindle-at-speed") == "TRUE", "at speed")
-print({name: get(name) for name in ("SetF", "OutF", "CNTR", "CNST", "CNST-run", "CNST-running", "CNST-command-rf", "frequency-command")}, round(float(get("spindle-speed-fb"))), round(float(get("spindle-speed-fb-rps"))))
+print({name: get(name) for name in ("SetF", "OutF", "CNTR", "CNST", "CNST-run", "CNST-running", "CNST-command-rf",
+                                    "frequency-command")}, round(float(get("spindle-speed-fb"))),
+                                    round(float(get("spindle-speed-fb-rps"))))
 setp("spindle-reverse", 1)
 until(lambda: drive.control == 8 and get("spindle-at-speed") == "FALSE", "both directions: stops")
 setp("spindle-forward", 0)
@@ -114,6 +120,8 @@ out, told = program.communicate(timeout=20)
 print("ends with", program.returncode, "control", drive.control)
 print(out.splitlines()[:3], len(out.splitlines()) % 183, any("CRC error" in line for line in told.splitlines()))
 print("== options")
-for options in (["-r", "1"], ["-B", "401"], ["--register", "PD1"], ["--register", "PD300=1"], ["-x", "PD001=2"], ["-h"], ["-d", "/nothing"]):
-    done = subprocess.run(["hy_vfd", *options, *([] if "-d" in options else ["-d", "/none"])], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=20)
+for options in (["-r", "1"], ["-B", "401"], ["--register", "PD1"], ["--register", "PD300=1"], ["-x", "PD001=2"], ["-h"],
+                ["-d", "/nothing"]):
+    done = subprocess.run(["hy_vfd", *options, *([] if "-d" in options else ["-d", "/none"])], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, timeout=20)
     print(options, done.returncode, done.stderr.splitlines()[-1:])

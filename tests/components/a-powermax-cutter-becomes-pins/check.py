@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""pmx485 with a cutter of its protocol on a pty: remote mode, limits, settings, fault and arc time, a disturbed and a silent line, the ends."""
+"""pmx485 with a cutter of its protocol on a pty: remote mode, limits, settings, fault and arc time, a disturbed and a
+silent line, the ends."""
 import os
 import pty
 import subprocess
@@ -14,7 +15,8 @@ REMOTE = {0x2093, 0x2094, 0x2096}
 
 class Powermax:
     def __init__(self):
-        self.registers = {0x2098: 0, 0x2099: 20 * 64, 0x209A: 45 * 64, 0x209C: 50 * 128, 0x209D: 80 * 128, 0x209E: 0x1234, 0x209F: 2} | dict.fromkeys(REMOTE, 0)
+        self.registers = {0x2098: 0, 0x2099: 20 * 64, 0x209A: 45 * 64, 0x209C: 50 * 128, 0x209D: 80 * 128,
+                          0x209E: 0x1234, 0x209F: 2} | dict.fromkeys(REMOTE, 0)
         self.silent = self.broken = False
         self.end, other = pty.openpty()
         tty.setraw(self.end)
@@ -69,8 +71,10 @@ for pin, setting in (("mode", 1), ("current", 40.5), ("pressure", 65)):
     halcmd("setp", f"pmx485.{pin}_set", str(setting))
 halcmd("setp", "pmx485.enable", "1")
 until(status, "answers")
-print("registers:", [cutter.registers[r] for r in sorted(REMOTE)], "pins:", [value(p) for p in ("mode", "current", "pressure")])
-print("limits:", [value(p) for p in ("current_min", "current_max", "pressure_min", "pressure_max")], "arc time:", value("arcTime"))
+print("registers:", [cutter.registers[r] for r in sorted(REMOTE)], "pins:",
+      [value(p) for p in ("mode", "current", "pressure")])
+print("limits:", [value(p) for p in ("current_min", "current_max", "pressure_min", "pressure_max")], "arc time:",
+      value("arcTime"))
 halcmd("setp", "pmx485.current_set", "30")
 until(lambda: cutter.registers[0x2094] == 30 * 64, "a new current is written")
 cutter.registers[0x2096] = 70 * 128  # on the cutter's panel

@@ -46,9 +46,11 @@ def requests() -> None:
             ("axis-c-select", 1, [("set_selected_axis", "C")]), ("axis-c-select", 0, []),
             ("cycle-start-in", 1, [("request_cycle_start", True)]), ("cycle-start-in", 0, []),
             ("cycle-pause-in", 1, [("request_cycle_pause", 1)]), ("cycle-pause-in", 0, [("request_cycle_pause", 0)]),
-            ("jog-rate-in", 12.5, [("set_jograte", 12.5)]), ("jog-rate-angular-in", 3.0, [("set_jograte_angular", 3.0)]),
+            ("jog-rate-in", 12.5, [("set_jograte", 12.5)]),
+            ("jog-rate-angular-in", 3.0, [("set_jograte_angular", 3.0)]),
             ("ok-in", 1, [("request_ok", True)]), ("cancel-in", 1, [("request_cancel", True)]),
-            ("shutdown-in", 1, [("request_shutdown", True)]), ("reload-display-in", 1, [("request_reload_display", True)]),
+            ("shutdown-in", 1, [("request_shutdown", True)]),
+            ("reload-display-in", 1, [("request_reload_display", True)]),
             ("ini-mdi-cmd-1", 1, [("request_macro_call", "ini-mdi-cmd-1")]),
             # characters of "macro-cmd-" go at both ends: "oad" of load
             ("ini-macro-cmd-load", 1, [("request_macro_call", "ini-macro-cmd-l")])):
@@ -113,8 +115,8 @@ def screen(session: Session, folder: str) -> None:
         hal("setp", "bridge.ok-in", "1")
         session.command(folder, "kerf-clock", "sleep", "0.2")
     got = []
-    for pin, value in (("cycle-start-in", "1"), ("cycle-pause-in", "1"), ("cycle-pause-in", "0"), ("jog-rate-in", "77.5"),
-                       ("axis-c-select", "1"), ("ini-mdi-cmd-HOME", "1")):
+    for pin, value in (("cycle-start-in", "1"), ("cycle-pause-in", "1"), ("cycle-pause-in", "0"),
+                       ("jog-rate-in", "77.5"), ("axis-c-select", "1"), ("ini-mdi-cmd-HOME", "1")):
         hal("setp", f"bridge.{pin}", value)
         session.command(folder, "kerf-clock", "sleep", "0.2")
     while len(got) < 6:
@@ -123,8 +125,8 @@ def screen(session: Session, folder: str) -> None:
         if message["FUNCTION"] != "request_ok":
             got.append((topic, message["FUNCTION"], message["ARGS"]))
     check("requests", got, [(b"STATUSREQUEST", name, value) for name, value in (
-        ("request_cycle_start", True), ("request_cycle_pause", True), ("request_cycle_pause", False), ("set_jograte", 77.5),
-        ("set_selected_axis", "C"), ("request_macro_call", "ini-mdi-cmd-HOME"))])
+        ("request_cycle_start", True), ("request_cycle_pause", True), ("request_cycle_pause", False),
+        ("set_jograte", 77.5), ("set_selected_axis", "C"), ("request_macro_call", "ini-mdi-cmd-HOME"))])
     read.close()
     write.close()
 
@@ -143,8 +145,8 @@ def program() -> None:
                 mistakes.append(errors)
             shown = session.command(folder, "halcmd", "-s", "show", "pin")[1].split()
             names = {w.removeprefix("bridge.") for w in shown if w.startswith("bridge.")}
-            wanted = {*hal_bridge.PLAIN_INPUTS, *hal_bridge.BOTH_EDGES, *hal_bridge.VALUES, *hal_bridge.MESSAGES.values(),
-                      "ini-mdi-cmd-HOME", "ini-mdi-cmd-1", "ini-macro-cmd-7"}
+            wanted = {*hal_bridge.PLAIN_INPUTS, *hal_bridge.BOTH_EDGES, *hal_bridge.VALUES,
+                      *hal_bridge.MESSAGES.values(), "ini-mdi-cmd-HOME", "ini-mdi-cmd-1", "ini-macro-cmd-7"}
             wanted |= {f"axis-{a}-{what}" for a in "xyc" for what in ("select", "is-selected")}
             check("pins", names ^ wanted, set())
             session.command(folder, "kerf-clock", "sleep", "0.3")

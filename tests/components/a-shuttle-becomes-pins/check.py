@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""shuttle with reports from two pipes that stand for raw HID devices: models, dial, spring wheel, buttons, unplugging."""
+"""shuttle with reports from two pipes that stand for raw HID devices: models, dial, spring wheel, buttons,
+unplugging."""
 import os
 import struct
 import subprocess
@@ -41,8 +42,10 @@ with tempfile.TemporaryDirectory() as folder:
 
     report(1, -7, 250, 0x0100)
     until(lambda: get("0.button-4-not") == "FALSE", "a report")
-    print("spring wheel:", get("0.spring-wheel-s32"), "as a fraction:", get("0.spring-wheel-f"), "the first dial is where it begins:", get("0.counts"))
-    print("last button:", get("0.button-4"), get("0.button-4-not"), "first one:", get("0.button-0"), get("0.button-0-not"))
+    print("spring wheel:", get("0.spring-wheel-s32"), "as a fraction:", get("0.spring-wheel-f"),
+          "the first dial is where it begins:", get("0.counts"))
+    print("last button:", get("0.button-4"), get("0.button-4-not"), "first one:", get("0.button-0"),
+          get("0.button-0-not"))
     report(1, 0, 4, 0x0010)
     until(lambda: get("0.button-4-not") == "TRUE", "another one")
     print("the dial goes on over its end:", get("0.counts"))
@@ -53,6 +56,7 @@ with tempfile.TemporaryDirectory() as folder:
     until(lambda: get("1.button-14") == "TRUE" and get("1.button-0") == "TRUE", "fifteen buttons of the other one")
     os.close(writers[pipes[2]])
     print("unplugged:", program.wait(), program.stderr.read().strip())
-    for words, what in (([], "none named"), ([f"{folder}/nothing"], "one that is not there"), ([pipes[0]], "another device")):
+    for words, what in (([], "none named"), ([f"{folder}/nothing"], "one that is not there"),
+                        ([pipes[0]], "another device")):
         done = subprocess.run(["shuttle", *words], capture_output=True, text=True)
         print(f"{what}: {done.returncode}", done.stderr.replace(folder, "").strip().splitlines()[-1])

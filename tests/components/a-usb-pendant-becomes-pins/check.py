@@ -33,7 +33,8 @@ def report(button=0, rotary=0, wheel=0, head=4):
 
 
 def start(*options, **changes):
-    return subprocess.Popen(["xhc-hb04", *options], env=environment | changes, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return subprocess.Popen(["xhc-hb04", *options], env=environment | changes, stdin=subprocess.DEVNULL,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
 def end(program):
@@ -76,7 +77,8 @@ print("== buttons and rotary")
 until(lambda: on("connected"), "found")
 report(0x02, 0x12)
 until(lambda: on("button-start-pause"), "pressed")
-print(on("jog.enable-off", "jog.enable-x", "jog.enable-y", "jog.enable-z", "jog.enable-a", "jog.enable-feed-override", "jog.enable-spindle-override"))
+print(on("jog.enable-off", "jog.enable-x", "jog.enable-y", "jog.enable-z", "jog.enable-a", "jog.enable-feed-override",
+         "jog.enable-spindle-override"))
 report(0x07, 0x13)
 until(lambda: on("button-zero-z"), "zero of the selected axis")
 print(on("button-start-pause", "button-zero", "button-zero-x", "button-zero-y", "button-zero-a", "button-half-z"))
@@ -110,8 +112,10 @@ report(0, 0x12, -5)
 until(lambda: get("jog.counts") == "-2", "counts back")
 until(lambda: get("jog.velocity") == "0" and not on("jog.plus-y", "jog.minus-y"), "at rest, nothing moves")
 print("== display")
-for name, value in (("x.pos-absolute", 12.34567), ("x.pos-relative", -0.00004), ("y.pos-absolute", -1.99996), ("y.pos-relative", 70000), ("z.pos-relative", -3.5), ("a.pos-relative", 90.25),
-                    ("feed-override", 1.2), ("spindle-override", 0.5), ("feed-value", 10), ("spindle-rps", -20), ("inch-icon", 1)):
+for name, value in (("x.pos-absolute", 12.34567), ("x.pos-relative", -0.00004), ("y.pos-absolute", -1.99996),
+                    ("y.pos-relative", 70000), ("z.pos-relative", -3.5), ("a.pos-relative", 90.25),
+                    ("feed-override", 1.2), ("spindle-override", 0.5), ("feed-value", 10), ("spindle-rps", -20),
+                    ("inch-icon", 1)):
     setp(name, value)
 until(lambda: image()[36] == 0x80 and coordinates()[3] > 12, "shown")
 loops()
@@ -141,6 +145,7 @@ print(program.stdout.readline().strip(), program.stdout.readline().strip())
 end(program)
 Path(folder / "bad.cfg").write_text("[XHC-HB04]\nBUTTON = zz:name\n")
 Path(folder / "none.cfg").write_text("[OTHER]\n")
-for options in (["-s", "6"], ["-q"], ["-I", str(folder / "bad.cfg")], ["-I", str(folder / "none.cfg")], ["-I", "/nothing.cfg"]):
+for options in (["-s", "6"], ["-q"], ["-I", str(folder / "bad.cfg")], ["-I", str(folder / "none.cfg")],
+                ["-I", "/nothing.cfg"]):
     program = start(*options)
     print(program.wait(20), program.stdout.read().splitlines()[:1][0].replace(str(folder), ""))

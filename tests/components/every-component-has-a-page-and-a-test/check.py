@@ -36,8 +36,9 @@ LOADS = {
     "boss_plc": ["debug=1"], "counter": [], "debounce": ["cfg=2"], "demux_generic": ["config=bb4,ff2,su2,us2"],
     "encoder": [], "encoder_ratio": [], "enum": ["enums=E;A;B,D;C"], "lcd": ["fmt_strings=%f%d%u%b10"],
     "matrix_kb": ["config=2x2s"], "mux_generic": ["config=bb4,ff2,su2,us2"], "pid": ["debug=1"],
-    "pushmsg": ["msgs=i|name|text {f:value}"], "pwmgen": ["output_type=0,1,2"], "siggen": [], "sampler": ["depth=4", "cfg=fbsulk"],
-    "sim_encoder": [], "spindle": ["numgears=2"], "stepgen": ["step_type=0,1,2,11", "ctrl_type=p,v,p,p"],
+    "pushmsg": ["msgs=i|name|text {f:value}"], "pwmgen": ["output_type=0,1,2"], "siggen": [],
+    "sampler": ["depth=4", "cfg=fbsulk"], "sim_encoder": [], "spindle": ["numgears=2"],
+    "stepgen": ["step_type=0,1,2,11", "ctrl_type=p,v,p,p"],
     "streamer": ["depth=4", "cfg=fbsulk"], "supply": [], "threads": ["name1=a", "name2=b", "period2=2000000"],
     "watchdog": ["num_inputs=2"], "weighted_sum": ["wsum_sizes=2"],
 }
@@ -71,7 +72,8 @@ def check_page(name: str, folder: str) -> None:
                     continue
                 full = words[-1] if kind == "funct" else words[4]
                 want = "" if kind == "funct" else f"{words[1]} {DIRECTION[words[2]]}"
-                if not any(p.fullmatch(full) and text in (want, want.replace(words[1], "type", 1)) for p, text in items):
+                if not any(p.fullmatch(full) and text in (want, want.replace(words[1], "type", 1))
+                           for p, text in items):
                     mistakes.append(f"{name}: the page does not name {kind} {full} {want}")
     finally:
         session.command(folder, "realtime", "stop")

@@ -85,7 +85,8 @@ def program() -> None:
         try:
             session.command(folder, "realtime", "start")
             halcmd("loadusr", "-W", "sendkeys", "config=s2t1,1")
-            names = [line.split()[-1] for kind in ("pin", "param") for line in halcmd("-s", "show", kind, "sendkeys").splitlines()]
+            names = [line.split()[-1] for kind in ("pin", "param")
+                     for line in halcmd("-s", "show", kind, "sendkeys").splitlines()]
             check("pins", names, [f"sendkeys.{n}" for n in (
                 "0.current-event", "0.init", "0.keycode", "0.trigger-00", "1.current-event", "1.init", "1.keycode",
                 "0.pin-event-00", "0.scan-event-00", "0.scan-event-01", "1.scan-event-00")])
@@ -104,7 +105,8 @@ def program() -> None:
 if __name__ == "__main__":
     keys()
     check("config", sendkeys.arguments(["config=s8t5,16,t12"]), [(8, 5), (16, 0), (0, 12)])
-    check("bad config", refusal("config=s8x5"), "sendkeys: 's8x5' in config=s8x5: sN (scan codes) and tN (triggers) are expected")
+    check("bad config", refusal("config=s8x5"),
+          "sendkeys: 's8x5' in config=s8x5: sN (scan codes) and tN (triggers) are expected")
     check("too many", refusal("config=65"), "sendkeys: '65' in config=65: at most 64 scan codes")
     check("no config", refusal() == sendkeys.__doc__, True)
     program()

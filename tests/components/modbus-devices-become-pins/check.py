@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""mb2hal with a device on TCP and one on a serial line: every function, both generations of names, faults and their end."""
+"""mb2hal with a device on TCP and one on a serial line: every function, both generations of
+names, faults and their end."""
 import os
 import signal
 import subprocess
@@ -93,8 +94,10 @@ FIRST_ELEMENT = 40
 NELEMENTS = 2
 """, "mb")
 print(pins("mb.*"))
-until(lambda: get("mb.in.00.float") == "65535" and get("mb.in.01.int") == "12" and get("mb.01.speed.float") == "40000", "registers are read")
-until(lambda: get("mb.02.01.bit") == "TRUE" and get("mb.02.01.bit-inv") == "FALSE" and get("mb.02.00.bit-inv") == "TRUE", "inputs are read")
+until(lambda: get("mb.in.00.float") == "65535" and get("mb.in.01.int") == "12" and get("mb.01.speed.float") == "40000",
+      "registers are read")
+until(lambda: get("mb.02.01.bit") == "TRUE" and get("mb.02.01.bit-inv") == "FALSE"
+      and get("mb.02.00.bit-inv") == "TRUE", "inputs are read")
 until(lambda: get("mb.05.01.bit") == "TRUE" and get("mb.05.02.bit") == "FALSE", "coils are read")
 halcmd("setp", "mb.03.00.float", "12.9")
 halcmd("setp", "mb.03.00.int", "5")
@@ -109,7 +112,8 @@ until(lambda: tcp.holding[30:32] == [3, 0], "several registers")
 halcmd("setp", "mb.06.00.bit", "1")
 halcmd("setp", "mb.07.08.bit", "1")
 until(lambda: line.coils[10:21] == [True, False] + [False] * 8 + [True], "coils are written")
-until(lambda: int(get("mb.08.num_errors")) > 2 and get("mb.06.num_errors") == "0", "too many elements are an error, each time")
+until(lambda: int(get("mb.08.num_errors")) > 2 and get("mb.06.num_errors") == "0",
+      "too many elements are an error, each time")
 print("== faults")
 tcp.silent = True
 until(lambda: int(get("mb.in.num_errors")) > 0, "no answer")
@@ -162,7 +166,8 @@ halcmd("setp", "mb2hal.01.00", "9")
 until(lambda: tcp.coils[:2] == [False, True] and tcp.holding[50] == 9 and get("mb2hal.03.00") == "TRUE", "works")
 end(program)
 told = Path("told").read_text().splitlines()
-print("told once:", [told.count(f"mb link_loop_and_logic ERR: {text}") for text in ("01: Illegal data address", "08: Too many data")])
+print("told once:", [told.count(f"mb link_loop_and_logic ERR: {text}")
+                     for text in ("01: Illegal data address", "08: Too many data")])
 print("== mistakes")
 GOOD = "[MB2HAL_INIT]\nTOTAL_TRANSACTIONS = 1\n[TRANSACTION_00]\nLINK_TYPE = tcp\nTCP_IP = 127.0.0.1\nMB_SLAVE_ID = 1\nFIRST_ELEMENT = 0\nNELEMENTS = 1\nMB_TX_CODE = fnct_03_read_holding_registers\n"
 
@@ -177,7 +182,10 @@ def refused(*words, text=None):
 refused()
 refused("file.ini")
 refused("config=none.ini")
-for old, new in (("TOTAL_TRANSACTIONS = 1\n", ""), ("TOTAL_TRANSACTIONS = 1", "TOTAL_TRANSACTIONS = 2"), ("tcp", "usb"), ("tcp", "serial"), ("LINK_TYPE = tcp\n", ""), ("NELEMENTS = 1\n", ""), ("NELEMENTS = 1", "NELEMENTS = 0"),
-                 ("FIRST_ELEMENT = 0\n", ""), ("fnct_03_read_holding_registers", "fnct_01_read_coils"), ("MB_TX_CODE", "MB_CODE"), ("MB_SLAVE_ID = 1\n", ""), ("MB_SLAVE_ID = 1", "MB_SLAVE_ID = x"),
+for old, new in (("TOTAL_TRANSACTIONS = 1\n", ""), ("TOTAL_TRANSACTIONS = 1", "TOTAL_TRANSACTIONS = 2"), ("tcp", "usb"),
+                 ("tcp", "serial"), ("LINK_TYPE = tcp\n", ""), ("NELEMENTS = 1\n", ""),
+                 ("NELEMENTS = 1", "NELEMENTS = 0"), ("FIRST_ELEMENT = 0\n", ""),
+                 ("fnct_03_read_holding_registers", "fnct_01_read_coils"), ("MB_TX_CODE", "MB_CODE"),
+                 ("MB_SLAVE_ID = 1\n", ""), ("MB_SLAVE_ID = 1", "MB_SLAVE_ID = x"),
                  ("NELEMENTS = 1", "MAX_UPDATE_RATE = -1\nNELEMENTS = 1"), ("NELEMENTS = 1", "PIN_NAMES = a,a")):
     refused("config=bad.ini", text=GOOD.replace(old, new))

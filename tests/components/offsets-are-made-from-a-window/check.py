@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""moveoff_gui: its connections, buttons, states and countdown, with moveoff and pins that stand for halui and motion."""
+"""moveoff_gui: its connections, buttons, states and countdown, with moveoff and pins that
+stand for halui and motion."""
 
 from __future__ import annotations
 
@@ -125,7 +126,8 @@ def on_pause(halui, motion) -> None:
     check("the other increment", hal.get_p("mv.offset-in-1"), 2.0)
     bench.click(zero[1])
     check("zero", hal.get_p("mv.offset-in-1"), 0.0)
-    for text, value, color in (("1.25", 1.25, "ink"), ("1,5", 1.5, "ink"), ("1.5.2", 1.5, "bad"), ("nan", 1.5, "bad"), ("99", 3.0, "ink")):
+    for text, value, color in (("1.25", 1.25, "ink"), ("1,5", 1.5, "ink"), ("1.5.2", 1.5, "bad"), ("nan", 1.5, "bad"),
+                               ("99", 3.0, "ink")):
         entry = window.entries["y"]
         entry.delete(0, "end")
         entry.insert(0, text)
@@ -199,7 +201,8 @@ def always(halui) -> None:
     for _ in range(2):
         bench.click(bench.buttons("+")[0])
     bench.pass_time(0.03)
-    check("usage shown", (window.note["text"][:15], window.note["fg"]), ("Waypoints used:", window.style.colours["ink"]))
+    check("usage shown", (window.note["text"][:15], window.note["fg"]),
+          ("Waypoints used:", window.style.colours["ink"]))
     bench.pass_time(0.014)
     check("usage high", window.note["fg"], window.style.colours["bad"])
     bench.pass_time(0.1)
@@ -251,8 +254,9 @@ def refusals() -> None:
         except moveoff_gui.Unusable as error:
             if part not in str(error):
                 mistakes.append(str(error))
-    for words, part in ((["-axes", "xxy"], "different letters"), (["-inc", "0"], "above 0"), (["-mode", "never"], "onpause"),
-                        (["-inc", "1"] * 5, "at most 4"), (["-size", "2"], "-size"), (["-no"], "-no")):
+    for words, part in ((["-axes", "xxy"], "different letters"), (["-inc", "0"], "above 0"),
+                        (["-mode", "never"], "onpause"), (["-inc", "1"] * 5, "at most 4"), (["-size", "2"], "-size"),
+                        (["-no"], "-no")):
         status, errors = command("moveoff_gui", *words)
         if not status or part not in errors:
             mistakes.append(f"moveoff_gui {words}: {status} {errors}")

@@ -20,9 +20,9 @@ sys.path[:0] = [str(TOP / "lib/python")]
 from panelui import config, keys, panel  # noqa: E402
 
 mistakes: list[str] = []
-NAMES = {"increment", "increment-not", "small-state", "small-state-not", "large", "large-not", "gear", "gear-not", "second",
-         "second-not", "light", "light-not", "left-state", "left-state-not", "right", "right-not", "horn", "horn-not",
-         "unused", "unused-not"}
+NAMES = {"increment", "increment-not", "small-state", "small-state-not", "large", "large-not", "gear",
+         "gear-not", "second", "second-not", "light", "light-not", "left-state", "left-state-not", "right", "right-not",
+         "horn", "horn-not", "unused", "unused-not"}
 
 
 def check(what: str, got: object, want: object) -> None:
@@ -44,7 +44,8 @@ def file_is_read() -> config.Config:
     check("metadata", first.metadata["TRUE_COMMAND"], 'Shift, 1, "a, b"')
     for text, part in (
             ("x = 1", ":1: x: stands in no section"), ("[WRONG]", ":1: [WRONG]: unknown; known: HAL_PREFIX"),
-            ("[TOGGLE_BUTTONS", ":1: [TOGGLE_BUTTONS: [SECTION]"), ("[TOGGLE_BUTTONS]\n[[[a]]]", ":2: [[[a]]]: stands in no"),
+            ("[TOGGLE_BUTTONS", ":1: [TOGGLE_BUTTONS: [SECTION]"),
+            ("[TOGGLE_BUTTONS]\n[[[a]]]", ":2: [[[a]]]: stands in no"),
             ("[TOGGLE_BUTTONS]\n[[a]]\nKEY = R8C0", ":3: KEY = R8C0: R0C0 to R7C7"),
             ("[TOGGLE_BUTTONS]\n[[a]]\n[[a]]", ":3: [[a]]: the name is there twice (line 2)"),
             ("[TOGGLE_BUTTONS]\n[[a]]\nKEY=R1C1\n[[b]]\nKEY=r1c1", ":5: KEY = R1C1: is taken in line 3"),
@@ -73,9 +74,9 @@ def file_is_read() -> config.Config:
 
 def codes() -> None:
     pad = keys.Keypad()
-    for code, want in ((0x40, None), (0, None), (0xC0, (0, 0, True)), (0xC0, None), (0xFF, (7, 7, True)), (0xC8, "more than 2"),
-                       (0x88, None), (0xBF, (7, 7, False)), (0xC8, (1, 0, True)), (0x80, (0, 0, False)), (0x1C0, "rows and"),
-                       (0x3F, "rows and")):
+    for code, want in ((0x40, None), (0, None), (0xC0, (0, 0, True)), (0xC0, None), (0xFF, (7, 7, True)),
+                       (0xC8, "more than 2"), (0x88, None), (0xBF, (7, 7, False)), (0xC8, (1, 0, True)),
+                       (0x80, (0, 0, False)), (0x1C0, "rows and"), (0x3F, "rows and")):
         try:
             got = pad.take(code)
         except keys.CodeError as error:
@@ -96,12 +97,15 @@ def buttons(settings: config.Config) -> None:
         now = [pins[n] for n in names]
         board.key(row, column, False)
         return now
-    check("start", [pins[n] for n in ("increment", "increment-not", "small-state", "large", "large-not", "gear", "gear-not",
-                                      "light", "light-not", "left-state-not", "right", "right-not", "horn", "horn-not")],
+    check("start", [pins[n] for n in ("increment", "increment-not", "small-state", "large", "large-not",
+                                      "gear", "gear-not", "light", "light-not", "left-state-not", "right", "right-not",
+                                      "horn", "horn-not")],
           [0.01, -0.01, True, -3, 16, 2, 2**32 - 2, True, False, True, 0, 7, -1.5, 1.5])
-    check("radio", press(0, 1, "increment", "increment-not", "small-state", "large", "large-not"), [2.5, -2.5, False, 16, -3])
+    check("radio", press(0, 1, "increment", "increment-not", "small-state", "large", "large-not"),
+          [2.5, -2.5, False, 16, -3])
     check("again", press(0, 1, "increment"), [2.5])
-    check("gear", (press(0, 2, "gear", "second", "second-not"), called), ([1, False, True], [("first", "shift", ["1", "a, b"])]))
+    check("gear", (press(0, 2, "gear", "second", "second-not"), called),
+          ([1, False, True], [("first", "shift", ["1", "a, b"])]))
     check("and back", (press(0, 3, "gear", "second"), len(called)), ([2, True], 1))
     called.clear()
     check("toggle", press(7, 7, "light", "light-not") + press(7, 7, "light"), [False, True, True])
@@ -137,7 +141,8 @@ def zeromq() -> None:
             if json.loads(text)["FUNCTION"] != "hello":
                 got.append((topic, json.loads(text)))
         check("published", got,
-              [(b"QTVCP", {"FUNCTION": "set_it", "ARGS": ["5", "x"]}), (b"QTVCP", {"FUNCTION": "clear_it", "ARGS": []})])
+              [(b"QTVCP", {"FUNCTION": "set_it", "ARGS": ["5", "x"]}),
+               (b"QTVCP", {"FUNCTION": "clear_it", "ARGS": []})])
         reader.close()
         publisher.socket.close()
 
@@ -168,8 +173,9 @@ def program() -> None:
         conf = Path(folder, "conf")
         conf.mkdir()
         session.env["CONFIG_DIR"] = str(conf)
-        for words, part in ((["-c", "8"], "ERROR: -c 8: a channel"), (["-n", "0"], "ERROR: -n 0"), (["-x"], "ERROR: unknown option"),
-                            (["a", "b"], "one output file"), ([], "no _panelui.ini in")):
+        for words, part in ((["-c", "8"], "ERROR: -c 8: a channel"), (["-n", "0"], "ERROR: -n 0"),
+                            (["-x"], "ERROR: unknown option"), (["a", "b"], "one output file"),
+                            ([], "no _panelui.ini in")):
             session.env["HOME"] = str(conf)
             status, _, errors = run("env", "-C", str(conf), "panelui", *words)
             if status != 1 or part not in errors:
@@ -192,7 +198,8 @@ def program() -> None:
             status, _, errors = run("halcmd", "-f", str(commands))
             if status:
                 mistakes.append(errors)
-            codes = [0x40] * 5 + [0xC1, 0x40, 0x81, 0xC2, 0x82, 0xC8, 0x88, 0x40, 0xC8, 0xD0, 0xFF, 0x90, 0x88] + [0x40] * 300
+            codes = [0x40] * 5 + [0xC1, 0x40, 0x81, 0xC2, 0x82, 0xC8, 0x88, 0x40, 0xC8, 0xD0, 0xFF, 0x90,
+                                  0x88] + [0x40] * 300
             run("halstreamer", feed="".join(f"{c}\n" for c in codes[:60]))
             run("halcmd", "start")
             run("kerf-clock", "sleep", "0.5")
@@ -200,7 +207,8 @@ def program() -> None:
             check("pins", {w[5:] for w in shown.split() if w.startswith("desk.")} ^ NAMES, set())
             check("owner", {line.split()[0] for line in shown.splitlines() if "desk." in line}, {"_panel_ui_py_"})
             check("values", [run("halcmd", "getp", f"desk.{n}")[1].strip() for n in
-                             ("increment", "large", "gear", "left-state", "horn", "light")], ["2.5", "16", "1", "FALSE", "-1.5", "TRUE"])
+                             ("increment", "large", "gear", "left-state", "horn", "light")],
+                             ["2.5", "16", "1", "FALSE", "-1.5", "TRUE"])
             if run("halcmd", "unloadusr", "panelui")[0]:
                 mistakes.append("panelui has ended by itself")
             run("halcmd", "waitusr", "-i", "panelui")
@@ -212,7 +220,8 @@ def program() -> None:
             check("ends after five samples", (status, errors), (0, ""))
         finally:
             run("realtime", "stop")
-        for text, status, part in ((Path("_panelui.ini").read_text(), 0, "9 buttons, 2 groups"), ("[X]", 1, ":1: [X]: unknown")):
+        for text, status, part in ((Path("_panelui.ini").read_text(), 0, "9 buttons, 2 groups"),
+                                   ("[X]", 1, ":1: [X]: unknown")):
             conf.joinpath("_panelui.ini").write_text(text)
             got = run("pyui", f"{conf}/_panelui.ini")
             if got[0] != status or part not in got[1] + got[2]:

@@ -49,13 +49,15 @@ def main() -> int:
             session.command(folder, "realtime", "start")
             Path(folder, "halui.py").write_text(HALUI)
             halcmd("loadusr", "-Wn", "halui", "/usr/bin/python3", folder + "/halui.py")
-            halcmd("loadusr", "-W", "mqtt-publisher", "--mqtt-broker=127.0.0.1", f"--mqtt-port={port}", "--mqtt-user=me",
-                   "--mqtt-password=secret", "--mqtt-prefix=shop/mill", "keys=halui.speed,halui.quit,no.such")
+            halcmd("loadusr", "-W", "mqtt-publisher", "--mqtt-broker=127.0.0.1", f"--mqtt-port={port}",
+                   "--mqtt-user=me", "--mqtt-password=secret", "--mqtt-prefix=shop/mill",
+                   "keys=halui.speed,halui.quit,no.such")
             broker.thread.join(60)
             check("lastpublish", halcmd("getp", "mqtt-publisher.lastpublish") != "0", True)
             check("period", halcmd("getp", "mqtt-publisher.period"), "10")
             end()
-            check("connect", packets[0], (0x10, b"\x00\x04MQTT\x04\xc2\x00\x3c\x00\x0emqtt-publisher\x00\x02me\x00\x06secret"))
+            check("connect", packets[0],
+                  (0x10, b"\x00\x04MQTT\x04\xc2\x00\x3c\x00\x0emqtt-publisher\x00\x02me\x00\x06secret"))
             check("topic", packets[1][1][:11], b"\x00\x09shop/mill")
             check("published", json.loads(packets[1][1][11:]),
                   {"halui.speed": 2.5, "halui.quit": False, "mqtt-publisher.period": 10})

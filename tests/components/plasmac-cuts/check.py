@@ -72,8 +72,8 @@ def cut() -> None:
     end = samples[-1]
     cutting = sum(s["state-out"] == 11 for s in samples)
     check("cut-time", abs(end["cut-time"] - cutting * 0.001) < 0.003, (end["cut-time"], cutting))
-    check("end", not end["torch-on"] and not end["feed-hold"] and abs(end["z"] - 20) < 0.01 and end["pierce-count"] == 1,
-          end)
+    check("end", not end["torch-on"] and not end["feed-hold"] and abs(end["z"] - 20) < 0.01
+          and end["pierce-count"] == 1, end)
 
 
 def no_arc() -> None:

@@ -45,8 +45,8 @@ def voltages() -> None:
     pins |= {"start": True, "cycles-in": -100, "ramp-noise-in": -3, "cut-noise-in": 2, "on-delay-in": 10}
     torch = sim_torch.Torch(Quiet())
     # 100 V: peak 50, first step 20; up in 80 cycles, down in 20.
-    wanted = {0: 0, 5: 60, 9: 108, 10: 120 + 10 * 30 / 80 + 3, 11: 120 + 11 * 30 / 80, 80: 150 + 3, 81: 147.5, 99: 102.5,
-              100: 102, 101: 100, 105: 102}
+    wanted = {0: 0, 5: 60, 9: 108, 10: 120 + 10 * 30 / 80 + 3, 11: 120 + 11 * 30 / 80, 80: 150 + 3,
+              81: 147.5, 99: 102.5, 100: 102, 101: 100, 105: 102}
     out = [torch.step(pins) for _ in range(110)]
     for n, volts in wanted.items():
         check(f"cycle {n}", out[n], volts)

@@ -17,7 +17,8 @@ def pumping():
 def state(what):
     sleep(0.1)
     enabled, closed = hal.get_value("motion.motion-enabled"), hal.get_value("estop.ok-out")
-    print(f"{what}: chain closed {closed}, machine on {enabled}, pump {pumping()}, agrees {pumping() == (enabled and closed)}")
+    print(f"{what}: chain closed {closed}, machine on {enabled}, pump {pumping()}, agrees "
+          f"{pumping() == (enabled and closed)}")
 
 
 state("start")

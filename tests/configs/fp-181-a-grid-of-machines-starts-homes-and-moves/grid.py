@@ -61,7 +61,8 @@ def machine(letters, units, homing, backlash):
     folder = Path(name)
     folder.mkdir()
     k = 1.0 if units == "mm" else 1 / 25.4
-    text = INI.format(name=name, lathe=int(letters == "XZ"), letters=letters, units=units, joints=len(letters), vel=30 * k)
+    text = INI.format(name=name, lathe=int(letters == "XZ"), letters=letters, units=units,
+                      joints=len(letters), vel=30 * k)
     hal = """loadrt [KINS]KINEMATICS
 loadrt [EMCMOT]EMCMOT base_period_nsec=[EMCMOT]BASE_PERIOD servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
 loadrt stepgen step_type={types}
@@ -82,8 +83,9 @@ net change iocontrol.0.tool-change => iocontrol.0.tool-changed
             lines = f"HOME_OFFSET = {3 * u}\nHOME_SEARCH_VEL = {8 * u}\nHOME_LATCH_VEL = {-2 * u}\n"
         if homing == "index":
             lines += "HOME_USE_INDEX = YES\n"
-        text += AXIS.format(letter=letter, n=n, kind="ANGULAR" if letter in "ABC" else "LINEAR", vel=20 * u, acc=200 * u, genacc=250 * u,
-                            genvel=25 * u, scale=100 / u, low=-60 * u, high=60 * u, ferror=1 * u, backlash=0.05 * u if backlash else 0,
+        text += AXIS.format(letter=letter, n=n, kind="ANGULAR" if letter in "ABC" else "LINEAR", vel=20 * u,
+                            acc=200 * u, genacc=250 * u, genvel=25 * u, scale=100 / u, low=-60 * u, high=60 * u,
+                            ferror=1 * u, backlash=0.05 * u if backlash else 0,
                             sequence=0 if letter == "Z" else 1, homing=lines)
         hal += f"""addf sim-home-switch.{n} servo-thread
 setp sim-home-switch.{n}.home-pos {5 * u}

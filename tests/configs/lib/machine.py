@@ -26,16 +26,17 @@ HOME_SEQUENCE = {sequence}
 """
 
 
-def machine(name, hal, letters="XYZ", kins=None, extra="", joint_extra="", home=(0, 0, 0), base=0, spindles=1, motmod="",
-            sequences=None, joints=None, sections="", files=None):
-    """One folder with NAME.ini; hal: lines of [HAL]; home: offset, search and latch velocity of every joint, or of each.
-    sections: lines of other sections; files: {name: text}, executable when they begin with #!."""
+def machine(name, hal, letters="XYZ", kins=None, extra="", joint_extra="", home=(0, 0, 0), base=0,
+            spindles=1, motmod="", sequences=None, joints=None, sections="", files=None):
+    """One folder with NAME.ini; hal: lines of [HAL]; home: offset, search and latch velocity of every joint, or of
+    each. sections: lines of other sections; files: {name: text}, executable when they begin with #!."""
     folder = Path(name)
     folder.mkdir()
     joints = joints or len(letters)
     homes = home if isinstance(home[0], tuple) else (home,) * joints
     joint_sections = "".join(JOINT.format(n=n, offset=offset, search=search, latch=latch,
-                                          sequence=sequences[n] if sequences and n < len(sequences) else 0 if search == 0 else 1 + n) + joint_extra
+                                          sequence=sequences[n] if sequences and n < len(sequences) else 0
+                                          if search == 0 else 1 + n) + joint_extra
                              for n, (offset, search, latch) in enumerate(homes))
     axes = "".join(AXIS.format(letter=letter) for letter in dict.fromkeys(letters))
     (folder / f"{name}.ini").write_text(f"""[EMC]

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-# Display of a machine with a view: homes, moves, compares the pins of the view with the joints and looks whether the picture changes.
+# Display of a machine with a view: homes, moves, compares the pins of the view with the joints and looks whether the
+# picture changes.
 import os
 import subprocess
 import sys
@@ -24,7 +25,8 @@ def do(name, *args):
 def window():
     """The window of the view, drawn anew until it has a picture."""
     for _ in range(300):
-        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", view], capture_output=True, text=True).stdout.split()
+        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", view], capture_output=True,
+                               text=True).stdout.split()
         if found:
             return True
         time.sleep(0.1)
@@ -62,6 +64,7 @@ for joint in range(s.joints):
     clock.sleep(3)
 s.poll()
 seen, asked = [hal.get_value(f"{view}.{p}") for p in pins], s.joint_actual_position[:len(pins)]
-print("pins follow:", all(abs(a - b) < 1e-6 for a, b in zip(seen, asked)), "joints moved:", [round(v, 3) for v in asked], end=" ", file=out)
+print("pins follow:", all(abs(a - b) < 1e-6 for a, b in zip(seen, asked)), "joints moved:",
+      [round(v, 3) for v in asked], end=" ", file=out)
 print("picture changed:", first != picture(), file=out)
 sys.exit(0)

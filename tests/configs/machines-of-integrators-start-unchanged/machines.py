@@ -20,7 +20,8 @@ def sub(name, body="", result=" [1]"):
 
 # Kinematics, motion and loops by hand, as most small machines have them.
 def loops(joints, base=False):
-    return (f"loadrt [KINS]KINEMATICS\nloadrt [EMCMOT]EMCMOT {'base_period_nsec=[EMCMOT](BASE_PERIOD) ' if base else ''}"
+    return (f"loadrt [KINS]KINEMATICS\nloadrt [EMCMOT]EMCMOT "
+            f"{'base_period_nsec=[EMCMOT](BASE_PERIOD) ' if base else ''}"
             "servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS](JOINTS)\n"
             "addf motion-command-handler servo-thread\naddf motion-controller servo-thread\n"
             + "".join(f"net J{j}pos joint.{j}.motor-pos-cmd => joint.{j}.motor-pos-fb\n" for j in range(joints))
@@ -51,7 +52,8 @@ REMAP = G88.6 modalgroup=1 argspec=xyz py=g886
 REMAP = G13 modalgroup=1 py=g13
 """ + PYTHON, files={
     "python/toplevel.py": "import oword\nimport remap\n",
-    "python/oword.py": "from interpreter import *\ndef multiply(self, *args):\n    self.return_value = args[0] * args[1]\n    return INTERP_OK\n",
+    "python/oword.py": "from interpreter import *\ndef multiply(self, *args):\n"
+                       "    self.return_value = args[0] * args[1]\n    return INTERP_OK\n",
     "python/util.py": "import inspect\ndef lineno():\n    return inspect.currentframe().f_back.f_lineno\n",
     "python/remap.py": """from interpreter import *
 from emccanon import MESSAGE
@@ -73,49 +75,66 @@ machine("wear", SIM, "XZ", kins="trivkins coordinates=xz", sections="""[RS274NGC
 REMAP = T python=index_lathe_tool_with_wear
 """ + PYTHON, files=GLUE | {"part.ngc": "G20 G18\nT0101\nG0 X1 Z1\nG0 X0.5\nM2\n",
                             "tool.tbl": "T1 P1 X1 Z1 D0.1 Q2\nT10001 P10001 Z0.01\n"})
-machine("twopass", "TWOPASS = verbose\nHALFILE = core_sim.hal\nHALFILE = sim_spindle_encoder.hal\nHALFILE = simulated_home.hal\n"
-        "HALFILE = first.hal\nHALFILE = second.hal\nHALFILE = kept.hal", kins="trivkins", base=50000, home=(0, 2, -0.2), files={
+machine("twopass", "TWOPASS = verbose\nHALFILE = core_sim.hal\nHALFILE = sim_spindle_encoder.hal\n"
+                   "HALFILE = simulated_home.hal\n"
+        "HALFILE = first.hal\nHALFILE = second.hal\nHALFILE = kept.hal", kins="trivkins", base=50000,
+        home=(0, 2, -0.2), files={
             "first.hal": "loadrt hypot names=spare\nloadrt flipflop count=2 # two of them\naddf spare servo-thread\n",
             "second.hal": "loadrt hypot names=more\naddf more servo-thread\nnet probe-in => motion.probe-input\n",
             "kept.hal": "# NOTWOPASS\nshow comp hypot\n", "part.ngc": MOVE})
-machine("extra", "TWOPASS = on\n" + SIM + "HALFILE = ./extra.tcl", "XYYZ", kins="trivkins coordinates=XYYZ kinstype=both",
-        motmod=" num_extrajoints=2", files={
-            "extra.tcl": "for {set j 4} {$j < 6} {incr j} {\n  loadrt limit3 names=j${j}_lim\n  addf j${j}_lim servo-thread\n"
-                         "  setp j${j}_lim.maxv 1\n  setp j${j}_lim.maxa 10\n  net j${j}:out j${j}_lim.out joint.$j.posthome-cmd\n}\n",
+machine("extra", "TWOPASS = on\n" + SIM + "HALFILE = ./extra.tcl", "XYYZ",
+        kins="trivkins coordinates=XYYZ kinstype=both", motmod=" num_extrajoints=2", files={
+            "extra.tcl": "for {set j 4} {$j < 6} {incr j} {\n  loadrt limit3 names=j${j}_lim\n"
+                         "  addf j${j}_lim servo-thread\n"
+                         "  setp j${j}_lim.maxv 1\n  setp j${j}_lim.maxa 10\n"
+                         "  net j${j}:out j${j}_lim.out joint.$j.posthome-cmd\n}\n",
             "part.ngc": MOVE}, sequences=(1, -2, -2, 0), joints=6)
-machine("indexer", SIM + "HALFILE = LIB:wheeljogpins.tcl 0.1\nHALCMD = loadrt timedelay\nHALCMD = addf timedelay.0 servo-thread\n"
+machine("indexer", SIM + "HALFILE = LIB:wheeljogpins.tcl 0.1\nHALCMD = loadrt timedelay\n"
+                         "HALCMD = addf timedelay.0 servo-thread\n"
         "HALCMD = net unlock joint.3.unlock timedelay.0.in\nHALCMD = net unlocked timedelay.0.out joint.3.is-unlocked\n"
-        "HALCMD = setp timedelay.0.on-delay 0.75", "XYZB", kins="trivkins coordinates=xyzb", motmod=" unlock_joints_mask=0x08",
+        "HALCMD = setp timedelay.0.on-delay 0.75", "XYZB", kins="trivkins coordinates=xyzb",
+        motmod=" unlock_joints_mask=0x08",
         sections="[AXIS_B]\nLOCKING_INDEXER_JOINT = 3\nWRAPPED_ROTARY = 1\n[JOINT_3]\nLOCKING_INDEXER = 1\n",
         files={"part.ngc": "G20 G90 G0 B4\nG0 X1\nM2\n"})
 machine("shared", "HALFILE = core_sim.hal\nHALFILE = switch.hal", kins="trivkins", base=50000, home=(1, 2, -0.2),
         joint_extra="HOME_IS_SHARED = 1\n", files={
             "switch.hal": "loadrt comp names=cx,cy,cz\nloadrt or2 names=oxy,oxyz\n"
                           + "".join(f"addf {f} servo-thread\n" for f in ("cx", "cy", "cz", "oxy", "oxyz"))
-                          + "".join(f"setp c{a}.hyst .02\nsetp c{a}.in0 1\nnet {a.upper()}pos c{a}.in1\n" for a in "xyz")
-                          + "net a cx.out oxy.in0\nnet b cy.out oxy.in1\nnet ab oxy.out oxyz.in0\nnet c cz.out oxyz.in1\n"
+                          + "".join(f"setp c{a}.hyst .02\nsetp c{a}.in0 1\nnet {a.upper()}pos c{a}.in1\n"
+                                    for a in "xyz")
+                          + "net a cx.out oxy.in0\nnet b cy.out oxy.in1\nnet ab oxy.out oxyz.in0\n"
+                            "net c cz.out oxyz.in1\n"
                             "net all oxyz.out joint.0.home-sw-in joint.1.home-sw-in joint.2.home-sw-in\n",
             "part.ngc": MOVE})
 machine("table", SIM + "HALCMD = net :select <= motion.analog-out-03\nHALCMD = net :select => motion.switchkins-type\n"
-        "HALCMD = net offset motion.tooloffset.z xyzac-trt-kins.tool-offset", "XYZAC", kins="xyzac-trt-kins sparm=identityfirst",
-        sections="""[RS274NGC]
+        "HALCMD = net offset motion.tooloffset.z xyzac-trt-kins.tool-offset", "XYZAC",
+        kins="xyzac-trt-kins sparm=identityfirst", sections="""[RS274NGC]
 SUBROUTINE_PATH = ./remap_subs
 HAL_PIN_VARS = 1
 REMAP = M428 modalgroup=10 ngc=428remap
 REMAP = M429 modalgroup=10 ngc=429remap
-""", files={f"remap_subs/{m}remap.ngc": f"o<{m}remap> sub\nM68 E3 Q{q}\nM66 E0 L0\no2 if [#<_task>]\no1 if [#<_hal[motion.switchkins-type]> NE {q}]\n"
-                                        f"(abort,no switch)\no1 endif\no2 endif\no<{m}remap> endsub\nM2\n" for m, q in (("428", 0), ("429", 1))}
+""", files={f"remap_subs/{m}remap.ngc": f"o<{m}remap> sub\nM68 E3 Q{q}\nM66 E0 L0\no2 if [#<_task>]\n"
+                                        f"o1 if [#<_hal[motion.switchkins-type]> NE {q}]\n"
+                                        f"(abort,no switch)\no1 endif\no2 endif\no<{m}remap> endsub\nM2\n"
+                                        for m, q in (("428", 0), ("429", 1))}
         | {"part.ngc": "G20 G90\nM429\nG1 F60 X1 A5\nM428\nG0 X0 A0\nM2\n"})
-machine("random", SIM, sections="[EMCIO]\nRANDOM_TOOLCHANGER = 1\n[SPINDLE_0]\nMAX_FORWARD_VELOCITY = 3000\nINCREMENT = 50\n", files={
+machine("random", SIM, sections="[EMCIO]\nRANDOM_TOOLCHANGER = 1\n[SPINDLE_0]\nMAX_FORWARD_VELOCITY = 3000\n"
+                                "INCREMENT = 50\n", files={
     "tool.tbl": "T1 P0 Z0.1\nT2 P1 Z0.2\nT3 P2 Z0.3\n", "part.ngc": "G20 G90\nT3 M6 G43\nG0 X1\nT1 M6\nG0 X0\nM2\n"})
-machine("two-spindles", "HALFILE = hand.hal", "XZ", kins="trivkins coordinates=xz", spindles=2, motmod=" num_spindles=2", base=100000,
-        files={"hand.hal": loops(2, base=True) + "net at0 spindle.0.on => spindle.0.at-speed\nnet at1 spindle.1.on => spindle.1.at-speed\n",
+machine("two-spindles", "HALFILE = hand.hal", "XZ", kins="trivkins coordinates=xz", spindles=2,
+        motmod=" num_spindles=2", base=100000,
+        files={"hand.hal": loops(2, base=True)
+               + "net at0 spindle.0.on => spindle.0.at-speed\nnet at1 spindle.1.on => spindle.1.at-speed\n",
                "part.ngc": "M3 S200 $0\nM4 S100 $1\nG20 F10 G1 X.02\nM5 $-1\n" + XZ})
 machine("cutter", "TWOPASS = ON\nHALFILE = sim.tcl\nHALFILE = qtplasmac_comp.hal\nHALFILE = custom.hal", "XYYZ",
-        kins="trivkins coordinates=xyyz kinstype=both", spindles=3, motmod=" num_spindles=3", sequences=(1, -2, -2, 0), files={
-            "sim.tcl": "loadrt {*}[join $::KINS(KINEMATICS)]\nloadrt {*}[join $::EMCMOT(EMCMOT)] servo_period_nsec=$::EMCMOT(SERVO_PERIOD) "
-                       "num_joints=$::KINS(JOINTS)\naddf motion-command-handler servo-thread\naddf motion-controller servo-thread\n"
-                       "for {set i 0} {$i < 4} {incr i} {\n  net pos-$i joint.$i.motor-pos-cmd joint.$i.motor-pos-fb\n}\n"
+        kins="trivkins coordinates=xyyz kinstype=both", spindles=3, motmod=" num_spindles=3",
+        sequences=(1, -2, -2, 0), files={
+            "sim.tcl": "loadrt {*}[join $::KINS(KINEMATICS)]\n"
+                       "loadrt {*}[join $::EMCMOT(EMCMOT)] servo_period_nsec=$::EMCMOT(SERVO_PERIOD) "
+                       "num_joints=$::KINS(JOINTS)\naddf motion-command-handler servo-thread\n"
+                       "addf motion-controller servo-thread\n"
+                       "for {set i 0} {$i < 4} {incr i} {\n  net pos-$i joint.$i.motor-pos-cmd "
+                       "joint.$i.motor-pos-fb\n}\n"
                        "net sim:estop iocontrol.0.user-enable-out iocontrol.0.emc-enable-in\n"
                        "net plasmac:tool-prepare iocontrol.0.tool-prepare iocontrol.0.tool-prepared\n"
                        "net plasmac:tool-change iocontrol.0.tool-change iocontrol.0.tool-changed\n",

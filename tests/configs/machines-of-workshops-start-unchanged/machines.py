@@ -6,11 +6,14 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "lib"))
 from machine import machine  # noqa: E402
 
-CORE = ("loadrt [KINS]KINEMATICS\nloadrt [EMCMOT]EMCMOT {base}servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS\n")
+CORE = ("loadrt [KINS]KINEMATICS\nloadrt [EMCMOT]EMCMOT {base}servo_period_nsec=[EMCMOT]SERVO_PERIOD "
+        "num_joints=[KINS]JOINTS\n")
 LOOPS = ("net estop-out <= iocontrol.0.user-enable-out\nnet estop-out => iocontrol.0.emc-enable-in\n"
-         "net tool-prep-loop iocontrol.0.tool-prepare => iocontrol.0.tool-prepared\nnet tool-change-loop iocontrol.0.tool-change => iocontrol.0.tool-changed\n")
+         "net tool-prep-loop iocontrol.0.tool-prepare => iocontrol.0.tool-prepared\n"
+         "net tool-change-loop iocontrol.0.tool-change => iocontrol.0.tool-changed\n")
 MOTION = "addf motion-command-handler servo-thread\naddf motion-controller servo-thread\n"
-STEP = {"STEPLEN": 5000, "STEPSPACE": 5000, "DIRSETUP": 20000, "DIRHOLD": 20000, "SCALE": 500.0, "STEPGEN_MAXACCEL": 62.5, "STEPGEN_MAXVEL": 6.25}
+STEP = {"STEPLEN": 5000, "STEPSPACE": 5000, "DIRSETUP": 20000, "DIRHOLD": 20000, "SCALE": 500.0,
+        "STEPGEN_MAXACCEL": 62.5, "STEPGEN_MAXVEL": 6.25}
 STEP_LINES = "".join(f"{k} = {v}\n" for k, v in STEP.items())
 MOVE = "G20 G90 G0 X1 Y1\nG1 F60 X2\nG0 X0 Y0\nM2\n"
 
@@ -18,42 +21,60 @@ MOVE = "G20 G90 G0 X1 Y1\nG1 F60 X2\nG0 X0 Y0\nM2\n"
 def hand(joints, extra="", base=False):
     """Motion alone, the position fed back."""
     return (CORE.format(base="base_period_nsec=[EMCMOT]BASE_PERIOD " if base else "") + MOTION + LOOPS
-            + "".join(f"net j{n}-pos joint.{n}.motor-pos-cmd => joint.{n}.motor-pos-fb\n" for n in range(joints)) + extra)
+            + "".join(f"net j{n}-pos joint.{n}.motor-pos-cmd => joint.{n}.motor-pos-fb\n" for n in range(joints))
+            + extra)
 
 
 def steppers(joints, spindle="spindle.0", extra="", switches=""):
     """What a wizard for step motors writes, with named generators and a soft thread for the pulses."""
     names = ",".join("0" * joints)
-    text = (CORE.format(base="base_period_nsec=[EMCMOT]BASE_PERIOD ") + f"loadrt stepgen step_type={names}\nloadrt pwmgen output_type=1\n"
-            "addf stepgen.make-pulses base-thread\naddf pwmgen.make-pulses base-thread\naddf stepgen.capture-position servo-thread\n" + MOTION
+    text = (CORE.format(base="base_period_nsec=[EMCMOT]BASE_PERIOD ")
+            + f"loadrt stepgen step_type={names}\nloadrt pwmgen output_type=1\n"
+            "addf stepgen.make-pulses base-thread\naddf pwmgen.make-pulses base-thread\n"
+            "addf stepgen.capture-position servo-thread\n" + MOTION
             + "addf stepgen.update-freq servo-thread\naddf pwmgen.update servo-thread\n\n"
             f"net spindle-cmd-rpm     <= {spindle}speed-out\nnet spindle-cmd-rps     <= {spindle}speed-out-rps\n"
-            f"net spindle-on          <= {spindle}on\nnet spindle-cw          <= {spindle}forward\nnet spindle-pwm <= pwmgen.0.pwm\n"
-            "net spindle-on => pwmgen.0.enable\nnet spindle-cmd-rpm => pwmgen.0.value\nsetp pwmgen.0.pwm-freq 100.0\nsetp pwmgen.0.scale 1166.66\n"
-            "setp pwmgen.0.offset 0.114\nsetp pwmgen.0.dither-pwm true\nnet coolant-flood <= iocontrol.0.coolant-flood\n\n")
+            f"net spindle-on          <= {spindle}on\nnet spindle-cw          <= {spindle}forward\n"
+            "net spindle-pwm <= pwmgen.0.pwm\n"
+            "net spindle-on => pwmgen.0.enable\nnet spindle-cmd-rpm => pwmgen.0.value\nsetp pwmgen.0.pwm-freq 100.0\n"
+            "setp pwmgen.0.scale 1166.66\n"
+            "setp pwmgen.0.offset 0.114\nsetp pwmgen.0.dither-pwm true\n"
+            "net coolant-flood <= iocontrol.0.coolant-flood\n\n")
     for n in range(joints):
-        text += (f"setp stepgen.{n}.position-scale [JOINT_{n}]SCALE\nsetp stepgen.{n}.steplen 1\nsetp stepgen.{n}.stepspace 0\n"
+        text += (f"setp stepgen.{n}.position-scale [JOINT_{n}]SCALE\nsetp stepgen.{n}.steplen 1\n"
+                 f"setp stepgen.{n}.stepspace 0\n"
                  f"setp stepgen.{n}.dirhold [JOINT_{n}]DIRHOLD\nsetp stepgen.{n}.dirsetup [JOINT_{n}]DIRSETUP\n"
-                 f"setp stepgen.{n}.maxaccel [JOINT_{n}]STEPGEN_MAXACCEL\nnet j{n}pos-cmd joint.{n}.motor-pos-cmd => stepgen.{n}.position-cmd\n"
-                 f"net j{n}pos-fb stepgen.{n}.position-fb => joint.{n}.motor-pos-fb\nnet j{n}step <= stepgen.{n}.step\nnet j{n}dir <= stepgen.{n}.dir\n"
+                 f"setp stepgen.{n}.maxaccel [JOINT_{n}]STEPGEN_MAXACCEL\n"
+                 f"net j{n}pos-cmd joint.{n}.motor-pos-cmd => stepgen.{n}.position-cmd\n"
+                 f"net j{n}pos-fb stepgen.{n}.position-fb => joint.{n}.motor-pos-fb\n"
+                 f"net j{n}step <= stepgen.{n}.step\nnet j{n}dir <= stepgen.{n}.dir\n"
                  f"net j{n}enable joint.{n}.amp-enable-out => stepgen.{n}.enable\n\n")
     return text + LOOPS + switches + extra
 
 
-machine("wizard", "HALFILE = wizard.hal\nHALFILE = custom.hal\nPOSTGUI_HALFILE = postgui.hal\nSHUTDOWN = shutdown.hal", base=100000, joint_extra=STEP_LINES,
-        sections="[FILTER]\nPROGRAM_EXTENSION = .png,.gif,.jpg Greyscale Depth Image\nPROGRAM_EXTENSION = .py Python Script\npng = image-to-gcode\npy = python3\n",
+machine("wizard", "HALFILE = wizard.hal\nHALFILE = custom.hal\nPOSTGUI_HALFILE = postgui.hal\nSHUTDOWN = shutdown.hal",
+        base=100000, joint_extra=STEP_LINES,
+        sections="[FILTER]\nPROGRAM_EXTENSION = .png,.gif,.jpg Greyscale Depth Image\n"
+                 "PROGRAM_EXTENSION = .py Python Script\npng = image-to-gcode\npy = python3\n",
         files={"wizard.hal": "# Generated by a wizard\n# Changes are lost\n" + steppers(3, "spindle.0."),
-               "custom.hal": "# Include your customized HAL commands here\n", "postgui.hal": "", "shutdown.hal": "# on the way out\nsetp pwmgen.0.offset 0\n", "part.ngc": MOVE})
+               "custom.hal": "# Include your customized HAL commands here\n", "postgui.hal": "",
+               "shutdown.hal": "# on the way out\nsetp pwmgen.0.offset 0\n", "part.ngc": MOVE})
 machine("wizard-1.0", "HALFILE = old.hal", base=100000, joint_extra=STEP_LINES,
-        files={"old.hal": steppers(3, "motion.spindle-", "net spindle-at-speed => motion.spindle-at-speed\nsets spindle-at-speed true\n"), "part.ngc": MOVE})
+        files={"old.hal": steppers(3, "motion.spindle-",
+                                   "net spindle-at-speed => motion.spindle-at-speed\nsets spindle-at-speed true\n"),
+                                   "part.ngc": MOVE})
 old = Path("wizard-1.0/wizard-1.0.ini")
 old.write_text(old.read_text().replace("VERSION = 1.1", "VERSION = 1.0"))
-machine("gantry", "HALFILE = gantry.hal", "XYYZ", kins="trivkins coordinates=XYYZ kinstype=BOTH", base=100000, joint_extra=STEP_LINES,
-        home=(-2, -2, 1), sequences=(2, -1, -1, 0), files={"part.ngc": MOVE, "gantry.hal": steppers(4, "spindle.0.", switches=(
+machine("gantry", "HALFILE = gantry.hal", "XYYZ", kins="trivkins coordinates=XYYZ kinstype=BOTH", base=100000,
+        joint_extra=STEP_LINES, home=(-2, -2, 1), sequences=(2, -1, -1, 0),
+        files={"part.ngc": MOVE, "gantry.hal": steppers(4, "spindle.0.", switches=(
             "loadrt comp names=sw0,sw1,sw2,sw3\nloadrt not names=inv0,inv1,inv2,inv3\n"
-            + "".join(f"addf sw{n} servo-thread\naddf inv{n} servo-thread\nsetp sw{n}.in0 {-2 - n * 0.01}\nsetp sw{n}.hyst 0.002\nnet j{n}pos-fb => sw{n}.in1\n"
-                      f"net sw{n}raw sw{n}.out => inv{n}.in\nnet home-j{n} inv{n}.out => joint.{n}.home-sw-in\n" for n in range(4))))})
-machine("lathe", "HALFILE = lathe.hal", "XZ", kins="trivkins coordinates=XZ", base=50000, sections="[DISPLAY]\nLATHE = 1\nBACK_TOOL_LATHE = 1\n", files={
+            + "".join(f"addf sw{n} servo-thread\naddf inv{n} servo-thread\nsetp sw{n}.in0 {-2 - n * 0.01}\n"
+                      f"setp sw{n}.hyst 0.002\nnet j{n}pos-fb => sw{n}.in1\n"
+                      f"net sw{n}raw sw{n}.out => inv{n}.in\nnet home-j{n} inv{n}.out => joint.{n}.home-sw-in\n"
+                      for n in range(4))))})
+machine("lathe", "HALFILE = lathe.hal", "XZ", kins="trivkins coordinates=XZ", base=50000,
+        sections="[DISPLAY]\nLATHE = 1\nBACK_TOOL_LATHE = 1\n", files={
     "lathe.hal": hand(2, base=True, extra="""loadrt sim_spindle names=spin
 loadrt sim_encoder num_chan=1
 loadrt encoder num_chan=1
@@ -83,22 +104,30 @@ net spindle-rpm-abs rpm-abs.out => at-speed.in2
 setp at-speed.scale 0.95
 setp at-speed.difference 10
 net spindle-at-speed at-speed.out => spindle.0.at-speed
-"""), "part.ngc": "G20 G18 G7 G90\nG96 S50 D300\nM3\nG0 X2 Z0.5\nG1 F5 Z0\nG97 S200\nG0 X1.2 Z.2\nG76 P0.05 Z-.5 I-.075 J0.02 K0.045 Q29.5 L2 E0.045\nG0 X2 Z.5\nM5\nM2\n"})
-machine("foam", "HALFILE = foam.tcl --scale 2", "XYUV", kins="trivkins coordinates=XYUV", sections="[DISPLAY]\nFOAM = 1\nGEOMETRY = XY;UV\n", files={
+"""), "part.ngc": "G20 G18 G7 G90\nG96 S50 D300\nM3\nG0 X2 Z0.5\nG1 F5 Z0\nG97 S200\nG0 X1.2 Z.2\n"
+                  "G76 P0.05 Z-.5 I-.075 J0.02 K0.045 Q29.5 L2 E0.045\nG0 X2 Z.5\nM5\nM2\n"})
+machine("foam", "HALFILE = foam.tcl --scale 2", "XYUV", kins="trivkins coordinates=XYUV",
+        sections="[DISPLAY]\nFOAM = 1\nGEOMETRY = XY;UV\n", files={
     "foam.tcl": "# " + "\n".join([
-        "arguments $argv", "source [file join [file dirname [info script]] loops.tcl]", "loadrt {*}[lindex $::KINS(KINEMATICS) 0]",
+        "arguments $argv", "source [file join [file dirname [info script]] loops.tcl]",
+        "loadrt {*}[lindex $::KINS(KINEMATICS) 0]",
         "loadrt $::EMCMOT(EMCMOT) servo_period_nsec=$::EMCMOT(SERVO_PERIOD) num_joints=$::KINS(JOINTS)",
         "foreach f {motion-command-handler motion-controller} { addf $f servo-thread }",
-        "for {set j 0} {$j < $::KINS(JOINTS)} {incr j} { net j$j:pos joint.$j.motor-pos-cmd => joint.$j.motor-pos-fb }", "loops",
-        "if {[lindex $argv 1] != 2} { puts stderr {no arguments}; exit 1 }", "setp ini.x.max_limit [expr {$::AXIS_X(MAX_LIMIT) * [lindex $argv 1]/2.0}]", ""]),
-    "loops.tcl": "proc loops {} {\n" + "".join(f"  {line.replace('=> ', '').replace('<= ', '')}\n" for line in LOOPS.splitlines()) + "}\n",
+        "for {set j 0} {$j < $::KINS(JOINTS)} {incr j} { net j$j:pos joint.$j.motor-pos-cmd => joint.$j.motor-pos-fb }",
+        "loops", "if {[lindex $argv 1] != 2} { puts stderr {no arguments}; exit 1 }",
+        "setp ini.x.max_limit [expr {$::AXIS_X(MAX_LIMIT) * [lindex $argv 1]/2.0}]", ""]),
+    "loops.tcl": "proc loops {} {\n"
+    + "".join(f"  {line.replace('=> ', '').replace('<= ', '')}\n" for line in LOOPS.splitlines()) + "}\n",
     "part.ngc": "G20 G90 G0 X1 Y1 U1 V1\nG1 F60 X2 U1.5\nY2 V3\nG0 X0 Y0 U0 V0\nM2\n"})
-DH = {"A-2": 12, "ALPHA-1": -1.570796326, "A-3": 1, "ALPHA-3": -1.570796326, "D-3": 3, "D-4": 16, "ALPHA-4": 1.570796326, "ALPHA-5": -1.570796326}
+DH = {"A-2": 12, "ALPHA-1": -1.570796326, "A-3": 1, "ALPHA-3": -1.570796326, "D-3": 3, "D-4": 16,
+      "ALPHA-4": 1.570796326, "ALPHA-5": -1.570796326}
 machine("arm", "HALFILE = arm.hal", "XYZABC", kins="genserkins", home=(0, 0, 0), files={
-    "arm.hal": hand(6, "".join(f"setp genserkins.{k} {v}\n" for k, v in DH.items())), "part.ngc": "G20 G91 F60\nG1 Z-1\nG0 A2\nG1 X.5 Y.5\nM2\n"})
+    "arm.hal": hand(6, "".join(f"setp genserkins.{k} {v}\n" for k, v in DH.items())),
+    "part.ngc": "G20 G91 F60\nG1 Z-1\nG0 A2\nG1 X.5 Y.5\nM2\n"})
 arm = Path("arm/arm.ini")
 arm.write_text(arm.read_text().replace("TYPE = LINEAR", "TYPE = ANGULAR").replace("_LIMIT = -10", "_LIMIT = -360").replace("_LIMIT = 10", "_LIMIT = 360")
-               .replace("MAX_VELOCITY = 5", "MAX_VELOCITY = 90").replace("MAX_ACCELERATION = 50", "MAX_ACCELERATION = 900").replace("HOME = 0", "HOME = 30"))
+               .replace("MAX_VELOCITY = 5", "MAX_VELOCITY = 90").replace("MAX_ACCELERATION = 50",
+                                                                         "MAX_ACCELERATION = 900").replace("HOME = 0", "HOME = 30"))
 machine("changer", "HALFILE = changer.hal\nHALCMD = net probe-in => motion.probe-input", sections="""[RS274NGC]
 USER_M_PATH = ./mcodes
 SUBROUTINE_PATH = ./subs:../../nc_files/macros
@@ -113,35 +142,60 @@ MDI_COMMAND = O<touchoff> call [1] [2]
 X = 1
 Z = 3.5
 """, motmod=" num_dio=64 num_aio=16", files={
-    "changer.hal": hand(3, "loadrt timedelay names=drawbar-delay\naddf drawbar-delay servo-thread\nsetp drawbar-delay.on-delay 0.1\n"
-                           "net drawbar motion.digital-out-05 => drawbar-delay.in\nnet drawbar-open drawbar-delay.out => motion.digital-in-05\n"
+    "changer.hal": hand(3, "loadrt timedelay names=drawbar-delay\naddf drawbar-delay servo-thread\n"
+                           "setp drawbar-delay.on-delay 0.1\n"
+                           "net drawbar motion.digital-out-05 => drawbar-delay.in\n"
+                           "net drawbar-open drawbar-delay.out => motion.digital-in-05\n"
                            "net mdi-home halui.mdi-command-00\nnet lube halui.machine.is-on\n"),
     "mcodes/M110": "#!/bin/sh\n# P: relay, Q: state\nexec halcmd setp drawbar-delay.off-delay \"$2\"\n",
-    "mcodes/M111": "#!/usr/bin/env python3\nimport sys\nprint('M111', [float(a) for a in sys.argv[1:]], file=sys.stderr)\n",
-    "subs/toolchange.ngc": "o<toolchange> sub\n#<next> = #<_selected_tool>\nM5\nG53 G0 Z[#<_ini[change]z>]\nG53 G0 X[#<_ini[change]x>]\nM64 P5\nM66 P5 L3 Q5\n"
-                           "o10 if [#5399 LT 0]\n(abort,drawbar)\no10 endif\nM6\nM65 P5\nM66 P5 L4 Q5\no<toolchange> endsub [#<next>]\nM2\n",
-    "subs/drawbar.ngc": "o<drawbar> sub\n(debug, P is #<p>)\no<drawbar> endsub\nM2\n", "subs/tool_length.ngc": "o<tool_length> sub\nG0 X#<x>\no<tool_length> endsub\nM2\n",
+    "mcodes/M111": "#!/usr/bin/env python3\nimport sys\n"
+                   "print('M111', [float(a) for a in sys.argv[1:]], file=sys.stderr)\n",
+    "subs/toolchange.ngc": "o<toolchange> sub\n#<next> = #<_selected_tool>\nM5\nG53 G0 Z[#<_ini[change]z>]\n"
+                           "G53 G0 X[#<_ini[change]x>]\nM64 P5\nM66 P5 L3 Q5\n"
+                           "o10 if [#5399 LT 0]\n(abort,drawbar)\no10 endif\nM6\nM65 P5\nM66 P5 L4 Q5\n"
+                           "o<toolchange> endsub [#<next>]\nM2\n",
+    "subs/drawbar.ngc": "o<drawbar> sub\n(debug, P is #<p>)\no<drawbar> endsub\nM2\n",
+    "subs/tool_length.ngc": "o<tool_length> sub\nG0 X#<x>\no<tool_length> endsub\nM2\n",
     "part.ngc": "G20 G90\nT1 M6\nG43 H1\nM110 P1 Q0.05\nM111 P1.5\nM62 P3\nG0 X1 Y1\nG43.1 Z0.5\nG1 F60 X2\nM2\n"})
 machine("ladder", "HALFILE = ladder.hal", files={
-    "ladder.hal": hand(3, "loadrt classicladder_rt numPhysInputs=15 numPhysOutputs=15 numS32in=10 numS32out=10 numFloatIn=10 numFloatOut=10\n"
-                          "addf classicladder.0.refresh servo-thread\nnet flood iocontrol.0.coolant-flood => classicladder.0.in-00\n"
+    "ladder.hal": hand(3, "loadrt classicladder_rt numPhysInputs=15 numPhysOutputs=15 numS32in=10 numS32out=10 "
+                          "numFloatIn=10 numFloatOut=10\n"
+                          "addf classicladder.0.refresh servo-thread\n"
+                          "net flood iocontrol.0.coolant-flood => classicladder.0.in-00\n"
                           "net flood-out classicladder.0.out-00\nloadusr classicladder --nogui none.clp\n"),
     "part.ngc": "M8\n" + MOVE})
-machine("servos", "HALFILE = servos.hal\n#INCLUDE more.inc\n", joint_extra="P = 50\nI = 0\nD = 0\nFF0 = 0\nFF1 = 1\nFF2 = 0\nBIAS = 0\nDEADBAND = 0.0001\nMAX_OUTPUT = 0\n",
-        files={"more.inc": "HALFILE = more.hal\nHALCMD = unlinkp spare.out\n[OWN]\nGAIN = 2 \n\n", "more.hal": "loadrt mux_generic config=\"ff2\"\nsetp scale.0.gain \\\n  [OWN]GAIN\n"
-               "alias pin joint.0.homed x-is-homed\nnet x-homed x-is-homed\nsource ./third.hal\nunalias pin joint.0.homed\n", "third.hal": "loadrt lut5 names=gate\naddf gate servo-thread\n"
-               "setp gate.function 0x8\nnet estop-out => gate.in-0\nloadrt logic names=all3 personality=0x103\naddf all3 servo-thread\nnewsig keep float\nsets keep 2.5\n",
-               "servos.hal": CORE.format(base="") + "loadrt pid names=pid.x,pid.y,pid.z\nloadrt scale count=1\nloadrt integ names=motor-x,motor-y,motor-z\nloadrt or2 names=spare\n" + MOTION + LOOPS
+machine("servos", "HALFILE = servos.hal\n#INCLUDE more.inc\n",
+        joint_extra="P = 50\nI = 0\nD = 0\nFF0 = 0\nFF1 = 1\nFF2 = 0\nBIAS = 0\nDEADBAND = 0.0001\nMAX_OUTPUT = 0\n",
+        files={"more.inc": "HALFILE = more.hal\nHALCMD = unlinkp spare.out\n[OWN]\nGAIN = 2 \n\n",
+               "more.hal": "loadrt mux_generic config=\"ff2\"\nsetp scale.0.gain \\\n  [OWN]GAIN\n"
+               "alias pin joint.0.homed x-is-homed\nnet x-homed x-is-homed\nsource ./third.hal\n"
+               "unalias pin joint.0.homed\n", "third.hal": "loadrt lut5 names=gate\naddf gate servo-thread\n"
+               "setp gate.function 0x8\nnet estop-out => gate.in-0\nloadrt logic names=all3 personality=0x103\n"
+               "addf all3 servo-thread\nnewsig keep float\nsets keep 2.5\n",
+               "servos.hal": CORE.format(base="")
+               + "loadrt pid names=pid.x,pid.y,pid.z\nloadrt scale count=1\n"
+                 "loadrt integ names=motor-x,motor-y,motor-z\nloadrt or2 names=spare\n" + MOTION + LOOPS
                + "addf scale.0 servo-thread\naddf spare servo-thread\nnet nowhere spare.out\n" + "".join(
                    f"addf pid.{a}.do-pid-calcs servo-thread\naddf motor-{a} servo-thread\n" + "".join(
-                       f"setp   pid.{a}.{p}  [JOINT_{n}]{v}\n" for p, v in (("Pgain", "P"), ("Igain", "I"), ("Dgain", "D"), ("bias", "BIAS"), ("FF0", "FF0"), ("FF1", "FF1"),
-                                                                           ("FF2", "FF2"), ("deadband", "DEADBAND"), ("maxoutput", "MAX_OUTPUT")))
-                   + f"setp pid.{a}.error-previous-target true\nnet {a}-enable joint.{n}.amp-enable-out => pid.{a}.enable\nnet {a}-pos-cmd joint.{n}.motor-pos-cmd => pid.{a}.command\n"
-                   f"net {a}-vel-cmd joint.{n}.vel-cmd => pid.{a}.command-deriv\nnet {a}-output pid.{a}.output => motor-{a}.in\nnet {a}-pos-fb motor-{a}.out => pid.{a}.feedback joint.{n}.motor-pos-fb\n"
+                       f"setp   pid.{a}.{p}  [JOINT_{n}]{v}\n"
+                       for p, v in (("Pgain", "P"), ("Igain", "I"), ("Dgain", "D"), ("bias", "BIAS"), ("FF0", "FF0"),
+                                    ("FF1", "FF1"), ("FF2", "FF2"), ("deadband", "DEADBAND"),
+                                    ("maxoutput", "MAX_OUTPUT")))
+                   + f"setp pid.{a}.error-previous-target true\n"
+                     f"net {a}-enable joint.{n}.amp-enable-out => pid.{a}.enable\n"
+                     f"net {a}-pos-cmd joint.{n}.motor-pos-cmd => pid.{a}.command\n"
+                   f"net {a}-vel-cmd joint.{n}.vel-cmd => pid.{a}.command-deriv\n"
+                   f"net {a}-output pid.{a}.output => motor-{a}.in\n"
+                   f"net {a}-pos-fb motor-{a}.out => pid.{a}.feedback joint.{n}.motor-pos-fb\n"
                    for n, a in enumerate("xyz")), "part.ngc": MOVE})
-machine("card", "HALFILE = card.hal", files={"card.hal": CORE.format(base="") + "loadrt hostmot2\nloadrt hm2_eth board_ip=\"192.168.1.121\" config=\"num_encoders=1 num_stepgens=4\"\n", "part.ngc": MOVE})
+machine("card", "HALFILE = card.hal",
+        files={"card.hal": CORE.format(base="")
+               + "loadrt hostmot2\nloadrt hm2_eth board_ip=\"192.168.1.121\" config=\"num_encoders=1 num_stepgens=4\"\n", "part.ngc": MOVE})
 machine("panel", "HALFILE = panel.hal", files={
-    "panel.hal": hand(3, "loadusr -W ./buttons.py --count 3\nloadusr -Wn lamp python3 lamp.py\nnet b0 buttons.out-0\nnet lamp-on lamp.on\n"),
-    "buttons.py": "#!/usr/bin/env python3\nimport sys, time, hal\nc = hal.component('buttons')\nfor n in range(int(sys.argv[2])):\n    c.newpin('out-%d' % n, hal.HAL_BIT, hal.HAL_OUT)\nc.ready()\n"
+    "panel.hal": hand(3, "loadusr -W ./buttons.py --count 3\nloadusr -Wn lamp python3 lamp.py\nnet b0 buttons.out-0\n"
+                         "net lamp-on lamp.on\n"),
+    "buttons.py": "#!/usr/bin/env python3\nimport sys, time, hal\nc = hal.component('buttons')\n"
+                  "for n in range(int(sys.argv[2])):\n    c.newpin('out-%d' % n, hal.HAL_BIT, hal.HAL_OUT)\nc.ready()\n"
                   "try:\n    while True:\n        time.sleep(0.05)\nexcept KeyboardInterrupt:\n    pass\n",
-    "lamp.py": "import time, hal\nc = hal.component('lamp')\nc.newpin('on', hal.HAL_BIT, hal.HAL_IN)\nc.ready()\nwhile True:\n    time.sleep(0.05)\n", "part.ngc": MOVE})
+    "lamp.py": "import time, hal\nc = hal.component('lamp')\nc.newpin('on', hal.HAL_BIT, hal.HAL_IN)\nc.ready()\n"
+               "while True:\n    time.sleep(0.05)\n", "part.ngc": MOVE})

@@ -36,7 +36,8 @@ print("Z by -30 steps of 0.1 mm:", wheel(3, -25))
 print("off:", wheel(0, 100))
 
 press("to-zero")
-print("to zero:", until(lambda s: s.inpos and abs(s.actual_position[1]) < 1e-6), [round(p, 3) for p in s.actual_position[:2]])
+print("to zero:", until(lambda s: s.inpos and abs(s.actual_position[1]) < 1e-6),
+      [round(p, 3) for p in s.actual_position[:2]])
 program("G21 G90 G1 X50 F600\nG1 X0\nM2\n")
 press("run")
 sleep(1)

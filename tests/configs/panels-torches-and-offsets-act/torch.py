@@ -28,6 +28,7 @@ print("given back:", abs(poll().actual_position[2] + 80) < 0.01, hal.get_value("
 c.feedrate(0.5)
 rows = follow(begin + "G1 X580 F3000\nM5\nG0 Z20\nG52 Z0\nM2\n")
 c.feedrate(1)
-rows = follow("G21 G90 G61 G52 Z-100\nG0 X130 Y50 Z3.8\nM3 S1\nG1 Z1.5 F1500\nG4 P0.5\nG1 X170 F6000\nG1 Y51\nG1 X168\nM5\nG0 Z20\nG52 Z0\nM2\n")
+rows = follow("G21 G90 G61 G52 Z-100\nG0 X130 Y50 Z3.8\nM3 S1\nG1 Z1.5 F1500\nG4 P0.5\nG1 X170 F6000\nG1 Y51\n"
+              "G1 X168\nM5\nG0 Z20\nG52 Z0\nM2\n")
 held = [b[2] - a[2] for a, b in zip(rows, rows[1:]) if not a[1] and not b[1]]
 print("held in corners:", len(held) > 0 and max(map(abs, held)) < 0.02)

@@ -4,5 +4,6 @@ from pathlib import Path
 
 from mill import *
 
-done = clock.run(["tclsh8.6", str(Path(__file__).with_suffix(".tcl"))], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+done = clock.run(["tclsh8.6", str(Path(__file__).with_suffix(".tcl"))], stdout=subprocess.PIPE,
+                 stderr=subprocess.STDOUT, text=True)
 print(done.stdout, end="")

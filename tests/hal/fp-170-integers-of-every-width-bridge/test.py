@@ -4,7 +4,8 @@ import subprocess
 import hal
 import hal.query
 
-assert (hal.HAL_SINT, hal.HAL_UINT, hal.HAL_REAL, hal.HAL_BOOL) == (hal.HAL_S64, hal.HAL_U64, hal.HAL_FLOAT, hal.HAL_BIT)
+assert (hal.HAL_SINT, hal.HAL_UINT, hal.HAL_REAL, hal.HAL_BOOL) == (hal.HAL_S64, hal.HAL_U64,
+                                                                    hal.HAL_FLOAT, hal.HAL_BIT)
 assert hal.Type.S32 == hal.HAL_S32 and hal.Type.SINT.HAL_S64 == hal.HAL_S64
 RANGES = {"s32": (hal.HAL_S32, -2**31, 2**31 - 1), "u32": (hal.HAL_U32, 0, 2**32 - 1),
           "s64": (hal.HAL_SINT, -2**63, 2**63 - 1), "u64": (hal.HAL_UINT, 0, 2**64 - 1)}

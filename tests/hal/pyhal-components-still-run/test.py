@@ -38,10 +38,10 @@ show("size again", setattr, s, "value", 20)
 print(type(s) is pyhal.signal, s.name, s.type, s.value)
 for what, f, args in (("write", tx.write, ("abc",)), ("write", tx.write, (b"defghi",)), ("write", tx.write, ("j",)),
                       ("writable", tx.writable, ()), ("readable", rx.readable, ()), ("peek", rx.peek, (2,)),
-                      ("read", rx.read, (4,)), ("read", rx.read, (6,)), ("drop", rx.peek_commit, (1,)), ("size", rx.size, ()),
-                      ("wait", rx.waitReadable, (4,)), ("wait", tx.waitWritable, (4,)), ("clear", rx.clear, ()),
-                      ("readable", rx.readable, ()), ("read tx", tx.read, (1,)), ("write rx", rx.write, ("x",)),
-                      ("value", lambda: tx.value, ())):
+                      ("read", rx.read, (4,)), ("read", rx.read, (6,)), ("drop", rx.peek_commit, (1,)),
+                      ("size", rx.size, ()), ("wait", rx.waitReadable, (4,)), ("wait", tx.waitWritable, (4,)),
+                      ("clear", rx.clear, ()), ("readable", rx.readable, ()), ("read tx", tx.read, (1,)),
+                      ("write rx", rx.write, ("x",)), ("value", lambda: tx.value, ())):
     show(what, f, *args)
 c.exit()
 c.exit()

@@ -11,8 +11,9 @@ def show(what, f, *args):
 
 c = hal.component("c")
 p = {}
-for name, kind, way in (("in", hal.HAL_FLOAT, hal.HAL_IN), ("s32", hal.HAL_S32, hal.HAL_OUT), ("u32", hal.HAL_U32, hal.HAL_IO),
-                        ("s64", hal.HAL_S64, hal.HAL_OUT), ("u64", hal.HAL_U64, hal.HAL_OUT), ("bit", hal.HAL_BIT, hal.HAL_IO),
+for name, kind, way in (("in", hal.HAL_FLOAT, hal.HAL_IN), ("s32", hal.HAL_S32, hal.HAL_OUT),
+                        ("u32", hal.HAL_U32, hal.HAL_IO), ("s64", hal.HAL_S64, hal.HAL_OUT),
+                        ("u64", hal.HAL_U64, hal.HAL_OUT), ("bit", hal.HAL_BIT, hal.HAL_IO),
                         ("tx", hal.HAL_PORT, hal.HAL_OUT), ("rx", hal.HAL_PORT, hal.HAL_IN)):
     p[name] = c.newpin(name, kind, way)
 par = c.newparam("par", hal.HAL_FLOAT, hal.HAL_RO)
@@ -39,10 +40,11 @@ c.ready()
 show("same name", hal.component, "c")
 print(c.getitem("in"), c.getitem("par"), par.name, par.type, par.dir, par.is_pin(), p["s32"].get_name())
 
-for name, value in (("bit", True), ("bit", "Yes"), ("bit", "off"), ("bit", "2"), ("bit", 0.0), ("bit", 1.0), ("bit", 0.5),
-                    ("bit", 7), ("bit", "maybe"), ("bit", None), ("in", 1), ("in", "2.5"), ("in", "x"), ("in", None),
-                    ("in", float("inf")), ("s32", 2.9), ("s32", "-5"), ("s32", "0x10"), ("s32", 2**31), ("s32", -2**31 - 1),
-                    ("s32", 2**80), ("u32", -1), ("u32", 2**32 - 1), ("u32", 2**32), ("s64", -2**63), ("s64", 2**63),
+for name, value in (("bit", True), ("bit", "Yes"), ("bit", "off"), ("bit", "2"), ("bit", 0.0),
+                    ("bit", 1.0), ("bit", 0.5), ("bit", 7), ("bit", "maybe"), ("bit", None), ("in", 1), ("in", "2.5"),
+                    ("in", "x"), ("in", None), ("in", float("inf")), ("s32", 2.9), ("s32", "-5"), ("s32", "0x10"),
+                    ("s32", 2**31), ("s32", -2**31 - 1), ("s32", 2**80), ("u32", -1), ("u32", 2**32 - 1),
+                    ("u32", 2**32), ("s64", -2**63), ("s64", 2**63),
                     ("u64", 2**64 - 1), ("u64", -1), ("u64", 2**64), ("s64", []), ("par", 3), ("tx", 3)):
     show("%s = %r" % (name, value), lambda: (c.__setitem__(name, value), c[name])[1])
 c.bit = False
@@ -66,16 +68,19 @@ show("raw param", lambda: c.getitem("par").write("x"))
 hal.new_sig("port", hal.HAL_PORT), hal.connect("c.tx", "port"), hal.connect("c.rx", "port")
 show("size", hal.set_s, "port", 10)
 show("size again", hal.set_s, "port", 20)
-for what, f, args in (("write", p["tx"].write, ("abc",)), ("write", p["tx"].write, (b"defghi",)), ("write", p["tx"].write, ("j",)),
-                      ("write", p["tx"].write, ("",)), ("write", p["tx"].write, (5,)), ("readable", p["rx"].readable, ()),
-                      ("writable", p["tx"].writable, ()), ("peek", p["rx"].peek, (4,)), ("read", p["rx"].read, (10,)),
-                      ("read", p["rx"].read, (2,)), ("peek_commit", p["rx"].peek_commit, (1,)), ("read", p["rx"].read, ("x",)),
-                      ("read tx", p["tx"].read, (1,)), ("write rx", p["rx"].write, ("x",)), ("read", p["rx"].read, (6,)),
+for what, f, args in (("write", p["tx"].write, ("abc",)), ("write", p["tx"].write, (b"defghi",)),
+                      ("write", p["tx"].write, ("j",)), ("write", p["tx"].write, ("",)), ("write", p["tx"].write, (5,)),
+                      ("readable", p["rx"].readable, ()), ("writable", p["tx"].writable, ()),
+                      ("peek", p["rx"].peek, (4,)), ("read", p["rx"].read, (10,)),
+                      ("read", p["rx"].read, (2,)), ("peek_commit", p["rx"].peek_commit, (1,)),
+                      ("read", p["rx"].read, ("x",)), ("read tx", p["tx"].read, (1,)),
+                      ("write rx", p["rx"].write, ("x",)), ("read", p["rx"].read, (6,)),
                       ("clear", p["rx"].clear, ()), ("size", p["rx"].size, ()), ("writable rx", p["rx"].writable, ()),
                       ("readable tx", p["tx"].readable, ())):
     show("%s%r" % (what, args), f, *args)
 
-print(hal.new_sig("s", hal.HAL_FLOAT), hal.new_sig("s", hal.HAL_FLOAT), hal.connect("c.in", "s"), hal.connect("c.in", "zz"))
+print(hal.new_sig("s", hal.HAL_FLOAT), hal.new_sig("s", hal.HAL_FLOAT), hal.connect("c.in", "s"),
+      hal.connect("c.in", "zz"))
 print(hal.pin_has_writer("c.in"), hal.pin_has_writer("c.tx"), hal.disconnect("c.in"), hal.disconnect("none"))
 show("has writer", hal.pin_has_writer, "none")
 show("bad signal", hal.new_sig, "q", 8)
@@ -98,8 +103,8 @@ w = hal.stream(c, 4711, 3, "fBsulk")
 r = hal.stream(c, 4711, "FBS")
 show("stream", hal.stream, c, 4711, "FBB")
 print(w, r, r.element_types, r.maxdepth, r.readable, w.writable, r.read(), r.num_underruns)
-for record in ((1, True, -1, 1, -2**63, 2**64 - 1), (0.5, 0, 2, 3, 4, 5), (0,) * 6, (1, 2), (1,) * 7, (1, 0, 2**31, 0, 0, 0),
-               ("x", 0, 0, 0, 0, 0), [1, 2]):
+for record in ((1, True, -1, 1, -2**63, 2**64 - 1), (0.5, 0, 2, 3, 4, 5), (0,) * 6, (1, 2), (1,) * 7,
+               (1, 0, 2**31, 0, 0, 0), ("x", 0, 0, 0, 0, 0), [1, 2]):
     show("write %r" % (record,), w.write, record)
 print(r.depth, r.num_overruns, r.read(), r.sampleno, r.read(), r.sampleno, r.read())
 m = hal.shm(c, 4712, 100)

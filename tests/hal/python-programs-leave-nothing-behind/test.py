@@ -18,7 +18,8 @@ WAYS = {
     "os._exit": "os._exit(4)",
     "abort": "os.abort()",
     "kill -9": "os.kill(os.getpid(), signal.SIGKILL)",
-    "terminated": "try:\n    os.kill(os.getpid(), signal.SIGTERM)\n    time.sleep(5)\nexcept KeyboardInterrupt:\n    sys.exit(9)",
+    "terminated": "try:\n    os.kill(os.getpid(), signal.SIGTERM)\n    time.sleep(5)\nexcept KeyboardInterrupt:\n"
+                  "    sys.exit(9)",
     "second component": "d = hal.component('child2'); d.ready()",
     "forgotten component": "del c; assert not hal.component_exists('child')",
 }

@@ -2,8 +2,8 @@
 from bench import acquire, clock, comp, hal, record, source, st
 
 drive = hal.component("drive")
-TYPES = (("bit", hal.HAL_BIT), ("float", hal.HAL_FLOAT), ("s32", hal.HAL_S32), ("u32", hal.HAL_U32), ("s64", hal.HAL_S64),
-         ("u64", hal.HAL_U64))
+TYPES = (("bit", hal.HAL_BIT), ("float", hal.HAL_FLOAT), ("s32", hal.HAL_S32), ("u32", hal.HAL_U32),
+         ("s64", hal.HAL_S64), ("u64", hal.HAL_U64))
 for name, kind in TYPES:
     drive.newpin(name, kind, hal.HAL_OUT)
 drive.newparam("par", hal.HAL_FLOAT, hal.HAL_RW)
@@ -44,7 +44,8 @@ def settings(kind, name, level, rising=True, auto=False, pos=0.1, **more):
 wave = [0] * 200 + [1] * 50 + [0] * 400
 for name, _kind in TYPES:
     for rising in (True, False):
-        show(f"{name} {'rising' if rising else 'falling'}", record(acq, settings("pin", f"drive.{name}", 0.5, rising), 5, ramp(name, wave)))
+        show(f"{name} {'rising' if rising else 'falling'}",
+             record(acq, settings("pin", f"drive.{name}", 0.5, rising), 5, ramp(name, wave)))
 show("negative", record(acq, settings("pin", "drive.s64", -4.5, True), 5, ramp("s64", [-5] * 200 + [-4] * 50)))
 show("great", record(acq, settings("pin", "drive.u64", 1e18, True), 5, ramp("u64", [0] * 200 + [2**63] * 50)))
 show("parameter", record(acq, settings("param", "drive.par", 0.5), 5, ramp("par", wave)))

@@ -53,7 +53,8 @@ fresh = st.Settings()
 for warning in configfile.parse(bad.splitlines(), fresh, resolve):
     print("halscope:", warning)
 print(fresh.samples, fresh.mult, fresh.selected, fresh.trigger.source, fresh.channel(1))
-print(configfile.parse(["PIN a.out"], st.Settings(), resolve), configfile.parse(["SAMPLES 5000", "CHAN 2", "sig speed", "choff"], fresh, resolve),
+print(configfile.parse(["PIN a.out"], st.Settings(), resolve),
+      configfile.parse(["SAMPLES 5000", "CHAN 2", "sig speed", "choff"], fresh, resolve),
       fresh.samples, fresh.channel(2).enabled)
 
 # Logs.
@@ -72,7 +73,8 @@ with open("t.csv", newline="") as f:
     rows = [r for r in csv.reader(f, delimiter=";") if not r[0].startswith("#")]
 print("csv module", rows[0], [float(w) for w in rows[3]])
 print("other order, no notes:", csvlog.parse(["# Sampling period is 5 ns", "x", "1", "2.5", "", "3e3"]).values)
-for lines in ([], ["x;y"], ["# Sampling period is 0 ns", "x"], ["# Sampling period is 5 ns"], ["# Sampling period is 5 ns", "x;y", "1;2", "3"],
+for lines in ([], ["x;y"], ["# Sampling period is 0 ns", "x"], ["# Sampling period is 5 ns"],
+              ["# Sampling period is 5 ns", "x;y", "1;2", "3"],
               ["# Sampling period is 5 ns", "x;y", "1;2", "3;z"], ["# Sampling period is 5 ns", "x;y", "# Scale: 1"],
               ["# Sampling period is 5 ns", "x;y", "# Scale: 1;q"], ["# Sampling period is 5 ns", ";".join("x" * 17)]):
     try:

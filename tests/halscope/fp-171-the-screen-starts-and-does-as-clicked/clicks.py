@@ -61,7 +61,8 @@ def operate(s):
     print(told.pop() if told else "no complaint", d.period_text.get(), d.rate_text.get(), d.lengths[1][1].cget("text"))
     d.mult.set("1")
     d.accept()
-    print("linked", acquire.linked_thread(), s.horizontal.rate.cget("text").split("\n"), s.horizontal.per_div.cget("text"))
+    print("linked", acquire.linked_thread(), s.horizontal.rate.cget("text").split("\n"),
+          s.horizontal.per_div.cget("text"))
 
     s.run_mode.buttons[st.NORMAL].invoke()
     print(told.pop(), settings.run_mode)
@@ -76,7 +77,8 @@ def operate(s):
     s.picker.accept()
     s.set_source(3, "pin", "and2.0.out")
     s.set_source(4, "param", "siggen.0.update.tmax")
-    print([(c.kind, c.name, c.type) for c in settings.channels[:4]], "selected", settings.selected, s.horizontal.rate.cget("text").split("\n"))
+    print([(c.kind, c.name, c.type) for c in settings.channels[:4]], "selected", settings.selected,
+          s.horizontal.rate.cget("text").split("\n"))
     settings.channel(2).vpos, settings.channel(3).vpos = 0.2, 0.9
 
     s.channels.buttons[3].invoke()                       # the selected one: off
@@ -86,7 +88,8 @@ def operate(s):
     s.set_trigger_source(1)
     s.trigger.mode.invoke()
     s.trigger.edge.invoke()
-    print("trigger", s.trigger.source.cget("text"), s.trigger.mode.cget("text"), s.trigger.edge.cget("text"), s.trigger.text.cget("text"))
+    print("trigger", s.trigger.source.cget("text"), s.trigger.mode.cget("text"), s.trigger.edge.cget("text"),
+          s.trigger.text.cget("text"))
     s.run_mode.buttons[st.SINGLE].invoke()
     yield lambda: s.record is not None and settings.run_mode == st.STOP
     r = s.record
@@ -143,7 +146,8 @@ def operate(s):
     s.display.event_generate("<Motion>", x=width // 2, y=40)
     found, other = s.display.readout(width // 2), s.display.readout(width // 2 + 100)
     line = words("readout")[0].split("\n")[1].split()
-    print("second cursor", line[:3], abs(float(line[3]) - (found[0] - other[0])) < 1e-6, abs(float(line[-1]) - (found[1] - other[1])) < 1e-4)
+    print("second cursor", line[:3], abs(float(line[3]) - (found[0] - other[0])) < 1e-6,
+          abs(float(line[-1]) - (found[1] - other[1])) < 1e-4)
     click(s, width // 2 + 102, 40, button=3)
     print("gone", [t.count("\n") for t in words("readout")])
     settings.zoom = 1
@@ -188,12 +192,14 @@ def operate(s):
     yield lambda: s.acq.idle
 
     with open("my.halscope", "w") as f:
-        f.write("THREAD base\nHMULT 2\nCHAN 5\nPIN siggen.0.cosine\nVSCALE 1\nPIN nothing\nCHAN 6\nSIG square\nTSOURCE 5\nTMODE 0\nRMODE 1\n")
+        f.write("THREAD base\nHMULT 2\nCHAN 5\nPIN siggen.0.cosine\nVSCALE 1\nPIN nothing\nCHAN 6\nSIG square\n"
+                "TSOURCE 5\nTMODE 0\nRMODE 1\n")
     s.load_configuration("my.halscope")
     settings = s.settings
     print("configuration", acquire.linked_thread(), settings.mult, settings.enabled(), settings.run_mode, s.period)
     yield lambda: s.record is not None and sorted(s.record.values) == [5, 6]
-    print("normal", s.record.period, s.record.values[5][s.record.trigger - 1] <= 0 < s.record.values[5][s.record.trigger])
+    print("normal", s.record.period,
+          s.record.values[5][s.record.trigger - 1] <= 0 < s.record.values[5][s.record.trigger])
     s.force()
     s.ask_rate()
     s.dialog.samples.set("20000")

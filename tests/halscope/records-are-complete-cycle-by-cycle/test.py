@@ -24,7 +24,8 @@ for mult, pos, channels in ((1, 0.5, 2), (1, 0.0, 2), (1, 1.0, 2), (7, 0.25, 2),
     edge = t == 0 or (sines[t - 1] <= 0 < sines[t])
     same = all(r.values[n] == r.values[2 - n % 2] for n in range(3, channels + 1))
     print(f"mult {mult} place {pos} channels {channels}: {r.count} samples of {r.period} ns, trigger at {t}, "
-          f"cycles between samples {steps}, differ from sampler {wrong}, edge {edge}, channels agree {same}, lost {lost}")
+          f"cycles between samples {steps}, differ from sampler {wrong}, edge {edge}, channels agree "
+          f"{same}, lost {lost}")
 
 # Rolling: pieces that are fetched now and then fit together.
 s = st.Settings(run_mode=st.ROLL)

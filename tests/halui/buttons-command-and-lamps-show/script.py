@@ -30,8 +30,9 @@ def show(what, *pins):
 
 sleep(0.1)
 MACHINE = ("machine.is-on", "estop.is-activated")
-show("start", *MACHINE, "mode.is-manual", "mode.is-auto", "mode.is-mdi", "mode.is-joint", "mode.is-teleop", "program.is-idle", "machine.units-per-mm",
-     "max-velocity.value", "feed-override.value", "rapid-override.value", "spindle.0.override.value", "spindle.0.brake-is-on", "joint.0.is-selected", "axis.x.is-selected")
+show("start", *MACHINE, "mode.is-manual", "mode.is-auto", "mode.is-mdi", "mode.is-joint", "mode.is-teleop",
+     "program.is-idle", "machine.units-per-mm", "max-velocity.value", "feed-override.value", "rapid-override.value",
+     "spindle.0.override.value", "spindle.0.brake-is-on", "joint.0.is-selected", "axis.x.is-selected")
 press("machine.on")
 show("on in estop", *MACHINE)
 press("estop.reset")
@@ -138,7 +139,8 @@ put("axis.x.analog", 0)
 sleep(0.5)
 print("analog:", -10.5 < xyz()[0] - x < -9)
 show("still", *(f"mode.is-{k}" for k in ("teleop", "manual")))
-print(all(abs(get(f"axis.{l}.pos-commanded") - xyz()[i]) < 1e-3 and abs(get(f"axis.{l}.pos-feedback") - xyz()[i]) < 2e-3 for i, l in enumerate("xyz")))
+print(all(abs(get(f"axis.{l}.pos-commanded") - xyz()[i]) < 1e-3 and abs(get(f"axis.{l}.pos-feedback") - xyz()[i]) < 2e-3
+          for i, l in enumerate("xyz")))
 
 print("== overrides")
 for name in ("feed-override", "rapid-override", "spindle.0.override"):
@@ -185,10 +187,12 @@ c.maxvel(200)
 print("== spindle, coolant")
 S = ("spindle.0.is-on", "spindle.0.runs-forward", "spindle.0.runs-backward", "spindle.0.brake-is-on")
 speed = lambda: poll().spindle[0]["speed"]
-for pin in ("start", "stop", "reverse", "stop", "forward", "increase", "increase", "decrease", "stop", "brake-off", "brake-on"):
+for pin in ("start", "stop", "reverse", "stop", "forward", "increase", "increase", "decrease", "stop",
+            "brake-off", "brake-on"):
     press(f"spindle.0.{pin}", after=0.1)
     show(f"{pin} {speed():g}", *S)
-for pin, lamp in (("mist.on", "mist.is-on"), ("flood.on", "flood.is-on"), ("mist.off", "mist.is-on"), ("flood.off", "flood.is-on")):
+for pin, lamp in (("mist.on", "mist.is-on"), ("flood.on", "flood.is-on"), ("mist.off", "mist.is-on"),
+                  ("flood.off", "flood.is-on")):
     press(pin)
     show(pin, lamp)
 

@@ -96,7 +96,8 @@ for j in range(3):
     put(f"joint.{j}.select", 1)
     sleep(0.1)
     put(f"joint.{j}.select", 0)
-    check(f"joint.{j}.select", hal.get_value("halui.joint.selected") == j and hal.get_value(f"halui.joint.{j}.is-selected"))
+    check(f"joint.{j}.select",
+          hal.get_value("halui.joint.selected") == j and hal.get_value(f"halui.joint.{j}.is-selected"))
     held("joint.selected.plus", j, 1)
     held("joint.selected.minus", j, -1)
     step("joint.selected", j)
@@ -111,7 +112,8 @@ for n, a in enumerate("xyz"):
     put(f"axis.{a}.select", 1)
     sleep(0.1)
     put(f"axis.{a}.select", 0)
-    check(f"axis.{a}.select", hal.get_value("halui.axis.selected") == n and hal.get_value(f"halui.axis.{a}.is-selected"))
+    check(f"axis.{a}.select",
+          hal.get_value("halui.axis.selected") == n and hal.get_value(f"halui.axis.{a}.is-selected"))
     held("axis.selected.plus", n, 1)
     held("axis.selected.minus", n, -1)
     step("axis.selected", n)

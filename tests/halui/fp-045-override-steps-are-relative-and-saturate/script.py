@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-045: steps of an override start from the present value, however it was set, end at the limits without wrapping, and the
-# first one back acts; a jog goes on at any override.
+# FP-045: steps of an override start from the present value, however it was set, end at the limits without wrapping,
+# and the first one back acts; a jog goes on at any override.
 import hal
 
 from mill import *

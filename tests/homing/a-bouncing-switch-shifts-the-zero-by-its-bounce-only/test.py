@@ -57,8 +57,8 @@ def home(joints, flags, bounce, latch, home, start=0.0, seed=1):
         r.near(m.get(f"joint.{j}.pos-cmd"), home, f"{name}: joint {j} final position")
 
 
-WIRINGS = (((ALONE,), 0), ((BOTH_ENDS,), IGNORE_LIMITS), ((ONE_END,), IGNORE_LIMITS), ((SHARED, OTHER), IS_SHARED | IGNORE_LIMITS),
-           ((SHARED_ALONE, OTHER_ALONE), IS_SHARED))
+WIRINGS = (((ALONE,), 0), ((BOTH_ENDS,), IGNORE_LIMITS), ((ONE_END,), IGNORE_LIMITS),
+           ((SHARED, OTHER), IS_SHARED | IGNORE_LIMITS), ((SHARED_ALONE, OTHER_ALONE), IS_SHARED))
 for joints, flags in WIRINGS:
     for bounce in (15, 60):
         for latch in (LATCH, -LATCH):

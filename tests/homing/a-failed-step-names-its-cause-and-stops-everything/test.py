@@ -97,7 +97,8 @@ STOP = 20.0 ** 2 / (2 * ACC) + 0.05
 # settings that cannot work
 fails("latch without source", ["invalid homing config: non-zero LATCH_VEL needs either SEARCH_VEL or USE_INDEX"],
       0, {}, way=0, latch_vel=2.0)
-fails("search without latch", ["invalid homing config: non-zero SEARCH_VEL needs LATCH_VEL"], 0, {}, way=0, search_vel=2.0)
+fails("search without latch", ["invalid homing config: non-zero SEARCH_VEL needs LATCH_VEL"], 0, {}, way=0,
+      search_vel=2.0)
 # a limit switch in each state that moves; without the ignore flag any switch counts
 for start, at, n, params in ((0, "SEARCH_WAIT", 7, USUAL), (20, "BACKOFF_WAIT", 5, dict(search_vel=5.0, latch_vel=2.0)),
                              (5, "FINAL_BACKOFF_WAIT", 10, USUAL), (5, "RISE_WAIT", 12, USUAL),
@@ -122,7 +123,8 @@ for start, n, params in ((20, 5, USUAL), (0, 7, USUAL), (0, 18, dict(latch_vel=2
     fails(f"on the switch of either end from {start}",
           [f"j0 hit limit in home state {n}",
            "joint 0 stands on a limit switch of either end: choose the direction, jog it off first"],
-          start, dict(pos_lim_at=-100, neg_lim_at=100), way=0, joint=0, **dict(params, flags=IGNORE_LIMITS | (USE_INDEX if n == 18 else 0)))
+          start, dict(pos_lim_at=-100, neg_lim_at=100), way=0, joint=0,
+          **dict(params, flags=IGNORE_LIMITS | (USE_INDEX if n == 18 else 0)))
 # FP-052: dead and stuck switches, default and settable bounds
 fails("dead switch", [end(7), DEAD], 0, dict(stuck=-1, pos_lim_at=1e9), **USUAL)
 fails("dead switch, bounded", [end(7), DEAD], 0, dict(stuck=-1), (7.5, 0, 0, 0), 7.5, **USUAL)

@@ -21,7 +21,8 @@ def settings(y0, y1):
     m.set_home(2, **y1)
 
 
-def home(title, start, y0, y1, switches=(50.0, 50.0), joint=-1, square=True, hw=({}, {}), bounce=0, fails=False, rack=0.0, apart=None):
+def home(title, start, y0, y1, switches=(50.0, 50.0), joint=-1, square=True, hw=({}, {}), bounce=0, fails=False,
+         rack=0.0, apart=None):
     """start: places of the two sides. Compared with the first difference the sides may part by
     the distance of the switches and a stop."""
     m.unhome()
@@ -61,7 +62,8 @@ def home(title, start, y0, y1, switches=(50.0, 50.0), joint=-1, square=True, hw=
     for a, b in order:
         for x, y in ((a, b), (b, a)):
             r.check(not (x in ("FINAL_BACKOFF_WAIT", "RISE_WAIT", "FALL_WAIT", "FINAL_WAIT") and
-                         y in ("SEARCH_START", "SEARCH_WAIT", "BACKOFF_START", "BACKOFF_WAIT")), f"{title}: {x} beside {y}")
+                         y in ("SEARCH_START", "SEARCH_WAIT", "BACKOFF_START", "BACKOFF_WAIT")),
+                         f"{title}: {x} beside {y}")
     r.check(("FINAL_WAIT", "FINAL_START") not in order and ("FINAL_START", "FINAL_WAIT") not in order,
             f"{title}: final moves not together: {order}")
     if joint >= 0:
@@ -84,7 +86,8 @@ home("switches out of line, racked", (4, 0), y(-3), y(-3, offset=53.5), switches
 index = dict(index_pitch=5.0, index_at=1.0)
 home("index on both", (0, 2), y(-3, flags=USE_INDEX), y(-3, flags=USE_INDEX), joint=1, hw=(index, index))
 for latch in (LATCH, -LATCH):
-    home(f"bouncing switches, latch {latch}", (0, 2), y(-3, latch_vel=latch), y(-3, latch_vel=latch), joint=1, bounce=20)
+    home(f"bouncing switches, latch {latch}", (0, 2), y(-3, latch_vel=latch), y(-3, latch_vel=latch),
+         joint=1, bounce=20)
 # a switch that never comes: both sides stop, within the settable distance
 for dead in (0, 1):
     hw = [{}, {}]
@@ -92,7 +95,8 @@ for dead in (0, 1):
     home(f"side {dead} dead", (0, 0), y(-3), y(-3), joint=1, hw=hw, fails=True, rack=6.0, apart=6.0 + STOP)
     got = m.told
     r.check(got == [f"j{dead + 1} end of move in home state 7",
-                    f"joint.{dead + 1}.home-sw-in is later than its partner's by more than joint.{dead + 1}.home-rack-max"],
+                    f"joint.{dead + 1}.home-sw-in is later than its partner's by more than "
+                    f"joint.{dead + 1}.home-rack-max"],
             f"side {dead} dead: {got}")
 for j in (1, 2):
     m.hw(j, stuck=0)

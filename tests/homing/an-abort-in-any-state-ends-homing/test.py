@@ -82,7 +82,8 @@ for params, start in KINDS:
         r.check(m.homed(2) and [m.at(0), m.at(1)] == at[:2] and not m.homed(1), f"{name}: others moved")
         r.check(not m.violations(), f"{name}: {m.violations()}")
 # every state that waits for something, or for the next cycle
-for state in ("UNLOCK_WAIT BACKOFF_START BACKOFF_WAIT SEARCH_START SEARCH_WAIT FINAL_BACKOFF_START FINAL_BACKOFF_WAIT RISE_START "
+for state in ("UNLOCK_WAIT BACKOFF_START BACKOFF_WAIT SEARCH_START SEARCH_WAIT FINAL_BACKOFF_START "
+              "FINAL_BACKOFF_WAIT RISE_START "
               "RISE_WAIT FALL_START FALL_WAIT INDEX_ONLY_START INDEX_WAIT FINAL_START FINAL_WAIT LOCK_WAIT").split():
     for way in WAYS:
         r.check((state, way) in tried, f"{way} in {state} was not tried")

@@ -42,18 +42,20 @@ for start in (0.0, 9.9, 15.0):
         for hw in ({}, dict(bounce_ms=15), dict(time_constant=0.005)):
             name = f"from {start} home {home} offset {offset} {hw}"
             way = BACK if start > 10 else SEARCH
-            tol = STEP + (LATCH * 0.005 if hw.get("time_constant") else 0) + (LATCH * 0.03 if hw.get("bounce_ms") else 0)
+            tol = STEP + (LATCH * 0.005 if hw.get("time_constant") else 0) + (LATCH * 0.03
+                                                                              if hw.get("bounce_ms") else 0)
             states = None if hw.get("bounce_ms") else way
             after = ["FINAL_BACKOFF_START", "FINAL_BACKOFF_WAIT", "RISE_START", "RISE_WAIT"]
             one(f"rising edge {name}", states and way + after + FINAL, 10 - offset, tol, start, hw,
                 search_vel=20.0, latch_vel=LATCH, home=home, offset=offset)
-            one(f"falling edge {name}", states and way + ["FALL_START", "FALL_WAIT"] + FINAL, 9.95 - offset, tol, start, hw,
-                search_vel=20.0, latch_vel=-LATCH, home=home, offset=offset)
+            one(f"falling edge {name}", states and way + ["FALL_START", "FALL_WAIT"] + FINAL, 9.95 - offset, tol,
+                start, hw, search_vel=20.0, latch_vel=-LATCH, home=home, offset=offset)
             index = dict(hw, index_pitch=4.0, index_at=1.3)
             one(f"rising edge, index {name}", states and way + after + ["INDEX_WAIT"] + FINAL, 13.3 - offset, 1e-6,
                 start, index, search_vel=20.0, latch_vel=LATCH, home=home, offset=offset, flags=USE_INDEX)
             one(f"falling edge, index {name}", states and way + ["FALL_START", "FALL_WAIT", "INDEX_WAIT"] + FINAL,
-                9.3 - offset, 1e-6, start, index, search_vel=20.0, latch_vel=-LATCH, home=home, offset=offset, flags=USE_INDEX)
+                9.3 - offset, 1e-6, start, index, search_vel=20.0, latch_vel=-LATCH, home=home, offset=offset,
+                flags=USE_INDEX)
             one(f"falling edge, index that does not reset {name}", None, 9.3 - offset, tol, start,
                 dict(index, index_reset=0), search_vel=20.0, latch_vel=-LATCH, home=home, offset=offset,
                 flags=USE_INDEX | NO_ENCODER_RESET)
@@ -70,7 +72,8 @@ one("at once", FINAL, 17.0 - 4.0, 1e-9, 17.0, None, offset=4.0, home=6.0)
 one("at once, no way to go", FINAL, 17.0 - 6.0, 1e-9, 17.0, None, offset=6.0, home=6.0)
 encoder_zero = m.at(0) - m.get("sim-joint.0.fb")
 for n in range(3):  # FP-058: however often, the same coordinate
-    one(f"absolute encoder, time {n}", FINAL, encoder_zero - 3.0, 1e-9, 17.0 + n, None, offset=3.0, home=5.0, flags=ABSOLUTE | NO_REHOME)
+    one(f"absolute encoder, time {n}", FINAL, encoder_zero - 3.0, 1e-9, 17.0 + n, None, offset=3.0, home=5.0,
+        flags=ABSOLUTE | NO_REHOME)
     one(f"absolute encoder without move, time {n}", [], encoder_zero - 3.0, 1e-9, 17.0 + n, None, offset=3.0, home=5.0,
         flags=ABSOLUTE | NO_REHOME | NO_FINAL_MOVE)
     r.near(m.at(0), 17.0 + n, "the slide stands still")

@@ -5,7 +5,8 @@ import kerf_motion as km
 from rig import Report, Rig
 
 r = Report()
-m = Rig(4, axes="xyz", kins="trivkins coordinates=xyz kinstype=both", motmod="num_extrajoints=1", hw={"all": dict(home_from=10)},
+m = Rig(4, axes="xyz", kins="trivkins coordinates=xyz kinstype=both", motmod="num_extrajoints=1",
+        hw={"all": dict(home_from=10)},
         home={j: dict(search_vel=20.0, latch_vel=2.0, offset=4.0, home=1.0, home_sequence=j // 2) for j in range(4)})
 m.enable()
 m.set("joint.3.posthome-cmd", 1.0)
@@ -32,7 +33,8 @@ m.set("joint.3.jog-scale", 0.1)
 m.set("joint.3.jog-counts", 10)
 m.sleep(0.05)
 r.check(not m.get("joint.3.wheel-jog-active") and m.status()["inpos"], "an extra joint that is homed takes a wheel")
-for joint, text in ((3, "Cannot unhome extrajoint <3> with motion enabled\n"), (-1, "Cannot unhome extrajoint <3> with motion enabled")):
+for joint, text in ((3, "Cannot unhome extrajoint <3> with motion enabled\n"),
+                    (-1, "Cannot unhome extrajoint <3> with motion enabled")):
     m.send(km.JOINT_UNHOME, joint=joint)
     m.sleep(0.01)
     got = m.errors()

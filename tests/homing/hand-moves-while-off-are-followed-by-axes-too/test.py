@@ -14,7 +14,8 @@ MACHINES = [
     ("trivkins coordinates=xyyz kinstype=both", 4, "xyz", [0.0] * 4, 0.8),
 ]
 for kins, joints, axes, start, extent in MACHINES:
-    m = Rig(joints, kins=kins, axes=axes, low=-1000.0, high=1000.0, home={j: dict(offset=q, home=q) for j, q in enumerate(start)})
+    m = Rig(joints, kins=kins, axes=axes, low=-1000.0, high=1000.0,
+            home={j: dict(offset=q, home=q) for j, q in enumerate(start)})
     m.enable()
     seen, ok = m.run_home()
     r.check(ok, f"{kins}: not homed")
@@ -51,6 +52,7 @@ for kins, joints, axes, start, extent in MACHINES:
             m.line(*target, vel=20)
             m.rest()
             end = m.status()["carte_pos_cmd"]
-            r.check(max(abs(a - b) for a, b in zip(target, end)) < 1e-6 and not m.errors(), f"{kins}: then moves to {end}")
+            r.check(max(abs(a - b) for a, b in zip(target, end)) < 1e-6 and not m.errors(),
+                    f"{kins}: then moves to {end}")
     m.close()
 r.finish()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Property test (FP-036 with a jerk limit): machines with random homing settings, places, switches that bounce and read wrongly,
-play in the drives, with and without a jerk limit. No motor goes beyond its limits of speed, acceleration and jerk; homing
-ends; it ends homed with the right zero when the hardware is good, else homed or with a message; an
+"""Property test (FP-036 with a jerk limit): machines with random homing settings, places, switches that bounce and
+read wrongly, play in the drives, with and without a jerk limit. No motor goes beyond its limits of speed, acceleration
+and jerk; homing ends; it ends homed with the right zero when the hardware is good, else homed or with a message; an
 abort at a random time stops everything."""
 import random
 
@@ -38,7 +38,8 @@ for jerk in (0.0, 8000.0):
             latch = rng.choice([-1, 1]) * rng.uniform(1, 4)
             p = dict(home_sequence=groups[j], offset=rng.uniform(-30, 30), home_final_vel=rng.choice([-1, 0, 5, 500]))
             p["home"] = p["offset"] + rng.uniform(-10, 10)
-            hw = dict(home_from=1e9, home_to=1e9, index_pitch=0, bounce_ms=rng.choice([0, 0, 5]) if kind == "switch" else 0,
+            hw = dict(home_from=1e9, home_to=1e9, index_pitch=0,
+                      bounce_ms=rng.choice([0, 0, 5]) if kind == "switch" else 0,
                       hysteresis=0.02, noise=rng.choice([0.002, 0.05]) if noisy else 0, pos_lim_at=1e9, neg_lim_at=-1e9)
             start = rng.uniform(-30, 30)
             flags = 0

@@ -13,7 +13,8 @@ SIZE = 0.5
 rows, columns = numpy.mgrid[0:24, 0:36]
 PICTURE = numpy.clip(1 - numpy.hypot(columns - 14, rows - 11) / 14, 0, 1)
 PICTURE[16:, 26:] = 0.8  # a step
-BASE = relief.Settings(units=1, pixel_size=SIZE, depth=5, tool_diameter=3, pixelstep=3, safety_height=2, tolerance=0.01, feed_rate=600, plunge_feed_rate=200, expand=0)
+BASE = relief.Settings(units=1, pixel_size=SIZE, depth=5, tool_diameter=3, pixelstep=3, safety_height=2, tolerance=0.01,
+                       feed_rate=600, plunge_feed_rate=200, expand=0)
 WORD = re.compile(r"([A-Z])(-?[\d.]+)")
 
 
@@ -71,7 +72,8 @@ def check(name, bottom=-4.9, **changes):
     relief.convert(PICTURE, settings, lines.append, percent.append)
     surface = relief.heights(PICTURE, settings)
     high = surface.shape[0]
-    pixels = [(dy, dx, edge(settings, math.hypot(dx, dy) * SIZE)) for dy in range(-3, 4) for dx in range(-3, 4) if math.hypot(dx, dy) * SIZE <= settings.tool_diameter / 2]
+    pixels = [(dy, dx, edge(settings, math.hypot(dx, dy) * SIZE)) for dy in range(-3, 4)
+              for dx in range(-3, 4) if math.hypot(dx, dy) * SIZE <= settings.tool_diameter / 2]
     deepest, worst, wrong = 0.0, 0.0, []
     for code, start, end, feed in moves(lines):
         if code == 0:
@@ -88,9 +90,11 @@ def check(name, bottom=-4.9, **changes):
             if abs(column - round(column)) > 0.02 or abs(row - round(row)) > 0.02:
                 continue
             column, row = round(column), round(row)
-            allowed = max(surface[row + dy, column + dx] - e for dy, dx, e in pixels if 0 <= row + dy < high and 0 <= column + dx < surface.shape[1])
+            allowed = max(surface[row + dy, column + dx] - e
+                          for dy, dx, e in pixels if 0 <= row + dy < high and 0 <= column + dx < surface.shape[1])
             worst = max(worst, allowed - z)
-    good = worst <= settings.tolerance * 2.5 and not wrong and deepest <= bottom and lines[-1] == "M2" and percent[-1] == 100
+    good = (worst <= settings.tolerance * 2.5 and not wrong and deepest <= bottom and lines[-1] == "M2"
+            and percent[-1] == 100)
     print(f"{name}: {'clear' if good else f'WRONG {worst} {wrong[:2]} {deepest}'}")
 
 
@@ -105,7 +109,8 @@ for bounded in (1, 2):
 check("roughing", roughing_offset=0.5, roughing_depth=1.5)
 check("border", expand=2)
 check("inverted", -4.3, invert=True, normalize=True)  # the ball does not reach into the cone
-for changes in (dict(depth=0), dict(pixelstep=0), dict(pixel_size=0.0001), dict(contact_angle=90), dict(tool_type=9), dict(feed_rate=float("nan"))):
+for changes in (dict(depth=0), dict(pixelstep=0), dict(pixel_size=0.0001), dict(contact_angle=90), dict(tool_type=9),
+                dict(feed_rate=float("nan"))):
     try:
         relief.convert(PICTURE, replace(BASE, **changes), print)
     except relief.Mistake as mistake:

@@ -43,7 +43,8 @@ CASES = [  # settings ("SECTION.NAME=VALUE"), program
     ("RS274NGC.LOG_FILE=/nowhere/my.log", "M2\n"),
 ]
 END = ("SET_XY_ROT", "SET_FEED_", "STOP_SPINDLE_TURNING(0", "SET_SPINDLE_MODE", "PROGRAM_END")
-BASE = {"TRAJ": ["COORDINATES = XYZA", "LINEAR_UNITS = mm", "OWN = 3"], "RS274NGC": ["PARAMETER_FILE = p.var"], "EMC": [], "DISPLAY": [], "WIZARD": [], "EMCIO": [],
+BASE = {"TRAJ": ["COORDINATES = XYZA", "LINEAR_UNITS = mm", "OWN = 3"], "RS274NGC": ["PARAMETER_FILE = p.var"],
+        "EMC": [], "DISPLAY": [], "WIZARD": [], "EMCIO": [],
         "AXIS_A": []}
 
 
@@ -56,8 +57,8 @@ def run(settings, program):
     Path("m.ini").write_text("".join(f"[{s}]\n" + "\n".join(lines) + "\n" for s, lines in text.items()))
     Path("p.var").write_text("5181\t3\n5182\t4\n5183\t5\n5210\t1\n5211\t7\n5220\t1\n")
     Path("p.ngc").write_text(program)
-    done = subprocess.run(["rs274", "-g", "-i", "m.ini", "-t", "t.tbl", "-v", "p.var", "p.ngc"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env=dict(os.environ, INI_FILE_NAME="m.ini"))
+    done = subprocess.run(["rs274", "-g", "-i", "m.ini", "-t", "t.tbl", "-v", "p.var", "p.ngc"], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, env=dict(os.environ, INI_FILE_NAME="m.ini"))
     return [re.sub(r"^ *\d+ N\.+ *", "", line).replace(os.getcwd(), ".") for line in done.stdout.splitlines()]
 
 

@@ -6,8 +6,8 @@ from kerf.ini_schema import SCHEMA
 
 # HAL files and HAL library files read these through [SECTION]NAME.
 FOLDERS = {"core": ["src", "lib/python/kerf", "lib/hallib", "tcl", "lib/python/rs274", "lib/python/axis"],
-           "table": ["lib/python/kerf/ini_schema.py", "lib/python/kerf/check_ini.py", "lib/python/kerf/check_settings.py",
-                     "lib/python/kerf/update_ini.py"]}
+           "table": ["lib/python/kerf/ini_schema.py", "lib/python/kerf/check_ini.py",
+                     "lib/python/kerf/check_settings.py", "lib/python/kerf/update_ini.py"]}
 
 
 def words_of(folders, without=()):
@@ -16,7 +16,8 @@ def words_of(folders, without=()):
         for path in Path(folder).rglob("*"):
             if path.suffix in (".cc", ".hh", ".c", ".h", ".py", ".tcl", ".hal", ".def", "") and path.is_file() \
                     and str(path) not in without:
-                comment = r"//.*|/\*(?s:.*?)\*/" if path.suffix in (".cc", ".hh", ".c", ".h", ".def") else r"(?m)^\s*#.*|\s# .*"
+                comment = (r"//.*|/\*(?s:.*?)\*/" if path.suffix in (".cc", ".hh", ".c", ".h", ".def")
+                           else r"(?m)^\s*#.*|\s# .*")
                 found.update(re.findall(r"[A-Z][A-Z0-9_]+", re.sub(comment, "", path.read_text(errors="replace"))))
     return found
 

@@ -20,15 +20,17 @@ def highest(target):
 
 on()
 print("begin with the file:", [hal.get_value(f"ini.{p}") for p in
-      ("0.max_limit", "1.min_limit", "2.max_velocity", "0.max_acceleration", "0.max_jerk", "1.home_sequence", "2.home_sequence",
-       "z.max_velocity", "x.max_jerk", "traj_max_velocity", "traj_max_jerk", "traj_default_acceleration", "traj_planner_type")])
+      ("0.max_limit", "1.min_limit", "2.max_velocity", "0.max_acceleration", "0.max_jerk", "1.home_sequence",
+       "2.home_sequence", "z.max_velocity", "x.max_jerk", "traj_max_velocity", "traj_max_jerk",
+       "traj_default_acceleration", "traj_planner_type")])
 
 put("0.max_limit", 350)
 put("0.min_limit", -340)
 put("0.ferror", 0.9)
 put("0.min_ferror", 0.1)
 put("0.backlash", 0.01)
-print("joint:", {k: s.joint[0][k] for k in ("max_position_limit", "min_position_limit", "max_ferror", "min_ferror", "backlash")})
+print("joint:", {k: s.joint[0][k]
+                 for k in ("max_position_limit", "min_position_limit", "max_ferror", "min_ferror", "backlash")})
 put("0.backlash", 0)
 put("x.max_limit", 30)
 put("x.min_limit", -20)

@@ -78,7 +78,8 @@ def f_trt(p, j, ac):
     if ac:
         X, Y, Z = j[0] - X0, j[1] - dy - Y0, j[2] - dz - Z0
         return [cC * X - con * sC * c * Y + sC * s * Z - con * sC * dy + X0,
-                con * sC * X + cC * c * Y - con * cC * s * Z + cC * dy + Y0, con * s * Y + c * Z + dz + Z0, j[3], 0, j[4]]
+                con * sC * X + cC * c * Y - con * cC * s * Z + cC * dy + Y0, con * s * Y + c * Z + dz + Z0, j[3],
+                0, j[4]]
     X, Y, Z = j[0] - dx - X0, j[1] - Y0, j[2] - dz - Z0
     return [cC * c * X - con * sC * Y + con * cC * s * Z + cC * dx + X0,
             con * sC * c * X + cC * Y + sC * s * Z + con * sC * dx + Y0, -con * s * X + c * Z + dz + Z0, 0, j[3], j[4]]
@@ -117,8 +118,8 @@ def f_trsrn(p, j, acb, tool):
                 + (Stc * M + Ctc * t) * (Lz + Pz),
                 -(g2 * Cp + g1 * Sp) * (Dx + L + Px) + g2 * Dx + (g1 * Cp - g2 * Sp) * (Dy + Py) - g1 * Dy
                 + (Ctc * M - Stc * t) * (Lz + Pz) + L * Stc,
-                (Sp * M + Cp * t) * (Dx + L + Px) - (Cp * M - Sp * t) * (Dy + Py) + Dy * M + (Lz + Pz) * s - Dx * t - Lz,
-                *rest]
+                (Sp * M + Cp * t) * (Dx + L + Px) - (Cp * M - Sp * t) * (Dy + Py) + Dy * M + (Lz + Pz) * s - Dx
+                * t - Lz, *rest]
     Rz = p["z-rot-axis"] - Lz
     if acb:
         Ry = p["y-rot-axis"] - (Dy + L)
@@ -232,8 +233,9 @@ XYZ = "-100:100,-100:100,-100:100"
 NINE = XYZ + ",-9:9,-9:9,-9:9,-9:9,-9:9,-9:9"
 TRT = {n: SMALL for n in ("x-rot-point", "y-rot-point", "z-rot-point", "x-offset", "y-offset", "z-offset")} | {
     "tool-offset": LEN(0, 100), "conventional-directions": BIT}
-TRSRN = {"tool-offset-z": LEN(0, 100), "z-pivot": LEN(100, 200), "x-offset": SMALL, "y-offset": SMALL, "z-rot-axis": SMALL,
-         "pre-rot": LEN(-1, 1), "nut-angle": LEN(20, 70), "primary-angle": LEN(-90, 90), "secondary-angle": LEN(-90, 90)}
+TRSRN = {"tool-offset-z": LEN(0, 100), "z-pivot": LEN(100, 200), "x-offset": SMALL, "y-offset": SMALL,
+         "z-rot-axis": SMALL, "pre-rot": LEN(-1, 1), "nut-angle": LEN(20, 70), "primary-angle": LEN(-90, 90),
+         "secondary-angle": LEN(-90, 90)}
 FIVE = "-500:500,-500:500,-500:500,-100:100,-400:400"
 ARM = "-170:170,-220:40,-50:220,-110:170,-100:100,-260:260"
 BENT = "-170:170,-220:40,-50:220,-110:170,10:100,-260:260"
@@ -245,30 +247,40 @@ MODULES = [
     ("maxkins", "maxkins", {"pivot-length": LEN(50, 300), "conventional-directions": BIT},
      f"ranges={XYZ},-9:9,-90:90,-900:900,-9:9,-9:9,-9:9", f_max, None),
     ("rosekins", "", {}, "ranges=1:100,-100:100,-2000:2000", f_rose, None),
-    ("tripodkins", "tripodkins", {"Bx": LEN(50, 150), "Cx": LEN(10, 60), "Cy": LEN(50, 150)}, f"by=pose ranges={XYZ}", None, i_tripod),
+    ("tripodkins", "tripodkins", {"Bx": LEN(50, 150), "Cx": LEN(10, 60), "Cy": LEN(50, 150)}, f"by=pose ranges={XYZ}",
+     None, i_tripod),
     ("scorbot-kins", "", {}, "ranges=-170:170,10:90,-85:5,-9:9,-9:9", f_scorbot, None),
     ("lineardeltakins", "lineardeltakins", {"R": LEN(100, 140), "L": LEN(240, 300)},
      "by=pose ranges=-80:80,-80:80,-300:100,-9:9,-9:9,-9:9,-9:9,-9:9,-9:9", None, i_lineardelta),
-    ("rotarydeltakins", "rotarydeltakins", {"platformradius": LEN(9, 11), "thighlength": LEN(9.5, 11), "shinlength": LEN(14, 16), "footradius": LEN(5, 7)},
+    ("rotarydeltakins", "rotarydeltakins",
+     {"platformradius": LEN(9, 11), "thighlength": LEN(9.5, 11), "shinlength": LEN(14, 16), "footradius": LEN(5, 7)},
      "by=pose ranges=-4:4,-4:4,-18:-9,-9:9,-9:9,-9:9,-9:9,-9:9,-9:9", None, i_rotarydelta),
     ("5axiskins", "5axiskins", {"pivot-length": LEN(50, 300)}, f"ranges={FIVE},-50:50", f_five, None),
     ("xyzac-trt-kins", "xyzac-trt-kins", TRT, f"ranges={FIVE}", lambda p, j: f_trt(p, j, True), None),
     ("xyzbc-trt-kins", "xyzbc-trt-kins", TRT, f"ranges={FIVE}", lambda p, j: f_trt(p, j, False), None),
-    ("xyzab_tdr_kins", "xyzab_tdr_kins", {"tool-offset-z": LEN(0, 100), "z-offset": SMALL, "x-offset": SMALL, "x-rot-point": SMALL,
-                                          "y-rot-point": SMALL, "z-rot-point": SMALL}, f"type=1 ranges={FIVE}", f_tdr, None),
+    ("xyzab_tdr_kins", "xyzab_tdr_kins",
+     {"tool-offset-z": LEN(0, 100), "z-offset": SMALL, "x-offset": SMALL, "x-rot-point": SMALL,
+                                          "y-rot-point": SMALL, "z-rot-point": SMALL}, f"type=1 ranges={FIVE}",
+                                          f_tdr, None),
     *[(f"xyz{m}_trsrn", f"xyz{m}_trsrn_kins", TRSRN | extra, f"type={1 + tool} ranges={FIVE},-90:90",
        lambda p, j, acb=m == "acb", tool=tool: f_trsrn(p, j, acb, tool), None)
-      for m, extra in (("acb", {"y-pivot": SMALL, "y-rot-axis": SMALL}), ("bca", {"x-pivot": SMALL, "x-rot-axis": SMALL}))
+      for m, extra in (("acb", {"y-pivot": SMALL, "y-rot-axis": SMALL}),
+                       ("bca", {"x-pivot": SMALL, "x-rot-axis": SMALL}))
       for tool in (0, 1)],
     ("millturn", "", {}, "type=1 ranges=-500:500,-500:500,-500:500,-100:100", f_millturn, None),
     ("userkins", "", {}, f"ranges={XYZ}", lambda p, j: [*j[:3], 0, 0, 0, 0, 0, 0], None),
-    ("matrixkins", "matrixkins", {f"C_{r}{c}": (LEN(0.9, 1.1) if r == c else LEN(-0.1, 0.1)) for r in "xyz" for c in "xyz"},
-     f"by=pose ranges={NINE}", None, lambda p, w: app([[p[f"C_{r}{c}"] for c in "xyz"] for r in "xyz"], w[:3]) + list(w[3:9])),
-    ("scarakins", "scarakins", {"D1": LEN(400, 500), "D2": LEN(300, 350), "D3": SMALL, "D4": LEN(200, 260), "D5": SMALL, "D6": LEN(0, 60)},
+    ("matrixkins", "matrixkins",
+     {f"C_{r}{c}": (LEN(0.9, 1.1) if r == c else LEN(-0.1, 0.1)) for r in "xyz" for c in "xyz"},
+     f"by=pose ranges={NINE}", None,
+     lambda p, w: app([[p[f"C_{r}{c}"] for c in "xyz"] for r in "xyz"], w[:3]) + list(w[3:9])),
+    ("scarakins", "scarakins",
+     {"D1": LEN(400, 500), "D2": LEN(300, 350), "D3": SMALL, "D4": LEN(200, 260), "D5": SMALL, "D6": LEN(0, 60)},
      "ranges=-170:170,-150:150,-100:100,-180:180,-9:9,-9:9", f_scara, None),
-    ("pumakins", "pumakins", {"A2": LEN(250, 350), "A3": LEN(20, 60), "D3": LEN(20, 80), "D4": LEN(350, 450), "D6": LEN(0, 90)},
+    ("pumakins", "pumakins", {"A2": LEN(250, 350), "A3": LEN(20, 60), "D3": LEN(20, 80), "D4": LEN(350, 450),
+                              "D6": LEN(0, 90)},
      f"ranges={ARM}", f_arm, None),
-    ("three21kins", "three21kins", {"A1": LEN(20, 70), "A2": LEN(280, 350), "A3": LEN(0, 30), "D1": LEN(100, 200), "D2": SMALL,
+    ("three21kins", "three21kins",
+     {"A1": LEN(20, 70), "A2": LEN(280, 350), "A3": LEN(0, 30), "D1": LEN(100, 200), "D2": SMALL,
                                     "D3": LEN(-9, 9), "D4": LEN(200, 300), "D6": LEN(0, 60)},
      f"ranges={ARM}", f_arm, None),
     ("genserkins", "genserkins", {**{f"A-{i}": LEN(a, a + 20) for i, a in enumerate((0, 0, 290, 45, 0, 0))},
@@ -281,7 +293,8 @@ MODULES = [
      "by=pose perturb=10000 ranges=-5:5,-5:5,20:40,-20:20,-20:20,-20:20", None, i_hexapod),
     ("genhexkins", "genhexkins", {"screw-lead": LEN(0.05, 0.3), "tool-offset": LEN(0, 1)},
      "by=pose perturb=10000 ranges=-5:5,-5:5,20:40,-20:20,-20:20,-20:20", None, None),
-    ("pentakins", "pentakins", {"tool-offset": LEN(0, 20)}, "by=pose perturb=50 ranges=-50:50,-50:50,200:400,-15:15,-15:15", None, i_penta),
+    ("pentakins", "pentakins", {"tool-offset": LEN(0, 20)},
+     "by=pose perturb=50 ranges=-50:50,-50:50,200:400,-15:15,-15:15", None, i_penta),
 ]
 
 
@@ -289,7 +302,8 @@ def difference(wanted, pose):
     """Largest difference of what the formula says from a pose of nine."""
     if isinstance(wanted, dict):
         R = rpy(*pose[3:6])
-        d = [a - b for a, b in zip(wanted["tran"], pose)] + [wanted["rot"][i][k] - R[i][k] for i in range(3) for k in range(3)]
+        d = [a - b for a, b in zip(wanted["tran"], pose)] + [wanted["rot"][i][k] - R[i][k] for i in range(3)
+                                                             for k in range(3)]
         d += [a - b for a, b in zip(wanted.get("uvw", []), pose[6:9])]
         return max(map(abs, d))
     return max(abs(math.remainder(a - b, 360) if 3 <= i < 6 else a - b) for i, (a, b) in enumerate(zip(wanted, pose)))

@@ -11,10 +11,12 @@ from motion_bench import AXES, Machine
 bad = []
 
 
-def program(title, kins, axes, start, box, vel, acc, path_vel, path_acc, setp=(), seed=(0,) * 9, moves=12, seeds=2, tolerance=0.05):
+def program(title, kins, axes, start, box, vel, acc, path_vel, path_acc, setp=(), seed=(0,) * 9, moves=12, seeds=2,
+            tolerance=0.05):
     """box: range of each axis letter, absolute, or relative to the pose of the start when its value is one number."""
-    m = Machine(joints=len(start), axes=axes, kins=kins, vel=vel, acc=acc, low=-1e5, high=1e5, kins_setup=setp, home=False,
-                home_params={j: dict(offset=q, home=q) for j, q in enumerate(start)}, ferror=0.05)
+    m = Machine(joints=len(start), axes=axes, kins=kins, vel=vel, acc=acc, low=-1e5, high=1e5,
+                kins_setup=setp, home=False, home_params={j: dict(offset=q, home=q) for j, q in enumerate(start)},
+                ferror=0.05)
     m.send(km.SET_WORLD_HOME, pos=seed)
     m.enable()
     m.home()
@@ -53,21 +55,23 @@ def program(title, kins, axes, start, box, vel, acc, path_vel, path_acc, setp=()
 
 
 program("table-table through the centre", "xyzac-trt-kins", "xyzac", [10.0, 5.0, 20.0, 0.0, 0.0],
-        dict(x=(-5, 5), y=(-5, 5), z=(10, 30), a=(-60, 60), c=(-400, 400)), [50, 50, 50, 60, 90], [500, 500, 500, 400, 700],
-        200.0, 4000.0, ["setp xyzac-trt-kins.z-rot-point -30"])
+        dict(x=(-5, 5), y=(-5, 5), z=(10, 30), a=(-60, 60), c=(-400, 400)), [50, 50, 50, 60, 90],
+        [500, 500, 500, 400, 700], 200.0, 4000.0, ["setp xyzac-trt-kins.z-rot-point -30"])
 program("tilting head", "5axiskins", "xyzbcw", [0.0, 0.0, 100.0, 0.0, 0.0, 0.0],
         dict(x=(-50, 50), y=(-50, 50), z=(80, 120), b=(-80, 80), c=(-300, 300), w=(-5, 5)), [150, 150, 100, 60, 90, 30],
         [1200, 1200, 800, 400, 700, 300], 300.0, 5000.0)
-program("linear delta near its edge", "lineardeltakins", "xyz", [235.0] * 3, dict(x=(-60, 60), y=(-125, -95), z=(-20, 20)),
-        200.0, 2000.0, 400.0, 8000.0)
-program("rotary delta", "rotarydeltakins", "xyz", [10.0] * 3, dict(x=(-3, 3), y=(-3, 3), z=(-18, -10)), 200.0, 3000.0, 100.0, 5000.0)
+program("linear delta near its edge", "lineardeltakins", "xyz", [235.0] * 3,
+        dict(x=(-60, 60), y=(-125, -95), z=(-20, 20)), 200.0, 2000.0, 400.0, 8000.0)
+program("rotary delta", "rotarydeltakins", "xyz", [10.0] * 3, dict(x=(-3, 3), y=(-3, 3), z=(-18, -10)), 200.0,
+        3000.0, 100.0, 5000.0)
 program("scara near its reach", "scarakins", "xyzabc", [30.0, 60.0, 0.0, 0.0, 0.0, 0.0],
         dict(x=(380, 560), y=(0, 80), z=(380, 420), c=(0, 90)), 180.0, 1200.0, 500.0, 5000.0, ["setp scarakins.D6 0"])
 program("arm with its wrist nearly straight", "pumakins", "xyzabc", [20.0, -50.0, 20.0, 10.0, 12.0, 15.0],
         dict(x=30.0, y=30.0, z=30.0, a=3.0, b=3.0, c=3.0), 180.0, 1200.0, 500.0, 5000.0)
 program("general arm", "genserkins", "xyzabcuvw", [20.0, -30.0, 60.0, 10.0, 40.0, 15.0, 0, 0, 0],
         dict(x=20.0, y=20.0, z=20.0, a=5.0, u=(-5, 5)), 180.0, 1200.0, 500.0, 5000.0, moves=10, seeds=2)
-program("hexapod", "genhexkins", "xyzabc", [34.0] * 6, dict(x=(-3, 3), y=(-3, 3), z=1.0, a=(-10, 10), b=(-10, 10), c=(-10, 10)),
+program("hexapod", "genhexkins", "xyzabc", [34.0] * 6,
+        dict(x=(-3, 3), y=(-3, 3), z=1.0, a=(-10, 10), b=(-10, 10), c=(-10, 10)),
         15.0, 150.0, 60.0, 1000.0, seed=(0, 0, 30, 0, 0, 0), tolerance=0.005)
 
 
@@ -87,8 +91,8 @@ def ranges(title, kins, axes, start, box, low, high, arcs=False, setp=(), moves=
             pose[AXES.index(letter)] = rng.uniform(*r)
         arc = arcs and n % 2
         center = [(here[0] + pose[0]) / 2, (here[1] + pose[1]) / 2, pose[2]]
-        m.send(km.SET_CIRCLE if arc else km.SET_LINE, pos=pose, center=center, normal=[0, 0, 1], vel=300, ini_maxvel=300, acc=5000,
-               ini_maxjerk=1e9, id=n + 1, motion_type=3 if arc else 2, turn=0 if arc else -1)
+        m.send(km.SET_CIRCLE if arc else km.SET_LINE, pos=pose, center=center, normal=[0, 0, 1], vel=300,
+               ini_maxvel=300, acc=5000, ini_maxjerk=1e9, id=n + 1, motion_type=3 if arc else 2, turn=0 if arc else -1)
         m.sleep(0.002)
         if m.status()["commandStatus"]:
             told = m.errors()
@@ -113,7 +117,8 @@ def ranges(title, kins, axes, start, box, low, high, arcs=False, setp=(), moves=
 
 
 ranges("table-table", "xyzac-trt-kins", "xyzac", [10.0, 5.0, 20.0, 0.0, 0.0],
-       dict(x=(-40, 40), y=(-40, 40), z=(10, 30), a=(-60, 60), c=(-200, 200)), [-45, -45, -10, -90, -1e4], [45, 45, 60, 90, 1e4],
-       arcs=True, setp=["setp xyzac-trt-kins.z-rot-point -30"])
-ranges("linear delta", "lineardeltakins", "xyz", [235.0] * 3, dict(x=(-60, 60), y=(-60, 60), z=(-40, 20)), 190.0, 300.0, arcs=True)
+       dict(x=(-40, 40), y=(-40, 40), z=(10, 30), a=(-60, 60), c=(-200, 200)), [-45, -45, -10, -90, -1e4],
+       [45, 45, 60, 90, 1e4], arcs=True, setp=["setp xyzac-trt-kins.z-rot-point -30"])
+ranges("linear delta", "lineardeltakins", "xyz", [235.0] * 3, dict(x=(-60, 60), y=(-60, 60), z=(-40, 20)), 190.0,
+       300.0, arcs=True)
 print("\n".join(b[:300] for b in bad[:16]) if bad else "limits hold")

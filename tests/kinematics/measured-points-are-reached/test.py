@@ -27,7 +27,8 @@ for (module, *settings), points in machines:
     with tempfile.NamedTemporaryFile("w", suffix=".hal") as f:
         f.write("\n".join(lines) + "\n")
         f.flush()
-        done = subprocess.run(["halrun", "-f", f.name], stdin=subprocess.DEVNULL, capture_output=True, text=True, env=os.environ)
+        done = subprocess.run(["halrun", "-f", f.name], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              env=os.environ)
     shown = [line.split() for line in (done.stdout + done.stderr).splitlines() if line.startswith("joints")]
     if done.returncode or len(shown) != len(points):
         bad.append(f"{module}: {done.stdout}{done.stderr}")

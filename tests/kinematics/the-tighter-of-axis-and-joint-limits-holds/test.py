@@ -8,8 +8,8 @@ from motion_bench import AXES, Machine
 bad = []
 for name, axis_limit, joint_limit, jerk in (("axis wider", 200.0, 100.0, 0.0), ("joint wider", 80.0, 100.0, 0.0),
                                             ("axis wider, jerk", 200.0, 100.0, 5000.0)):
-    m = Machine(jerk=jerk, traj_jerk=jerk or 1e9, joints=4, axes="xyz", kins="trivkins coordinates=xyyz kinstype=both", low=-joint_limit,
-                high=joint_limit)
+    m = Machine(jerk=jerk, traj_jerk=jerk or 1e9, joints=4, axes="xyz", kins="trivkins coordinates=xyyz kinstype=both",
+                low=-joint_limit, high=joint_limit)
     for a in range(3):
         m.send(km.SET_AXIS_POSITION_LIMITS, axis=a, minLimit=-axis_limit, maxLimit=axis_limit)
     m.mode(km.TELEOP)
@@ -18,13 +18,15 @@ for name, axis_limit, joint_limit, jerk in (("axis wider", 200.0, 100.0, 0.0), (
     for sign in (1, -1):
         for kind, more in ((km.JOG_CONT, {}), (km.JOG_ABS, dict(offset=5 * limit))):
             for letter, joints in (("x", [0]), ("y", [1, 2]), ("z", [3])):
-                m.send(kind, joint=-1, axis=AXES.index(letter), vel=sign * 40.0, **{k: sign * v for k, v in more.items()})
+                m.send(kind, joint=-1, axis=AXES.index(letter), vel=sign * 40.0,
+                       **{k: sign * v for k, v in more.items()})
                 m.sleep(12)
                 told, title = m.errors(), f"{name} jog {kind} {letter} {sign:+d}"
                 at = [m.get(f"joint.{j}.pos-cmd") for j in joints]
                 if not m.status()["enabled"] or m.violations():
                     bad.append(f"{title}: enabled {m.status()['enabled']} {m.violations()} {told}")
-                if len(told) > 1 or any(abs(q) > limit + 1e-9 for q in at) or any(abs(q - sign * limit) > 1e-6 for q in at):
+                if (len(told) > 1 or any(abs(q) > limit + 1e-9 for q in at)
+                        or any(abs(q - sign * limit) > 1e-6 for q in at)):
                     bad.append(f"{title}: at {at}, told {told}")
                 m.send(km.JOG_ABORT, joint=-1, axis=AXES.index(letter))
                 m.sleep(0.01)

@@ -54,11 +54,13 @@ near(pose(m)[:3], [0, 16, 7], "pose in type 0")
 m.close()
 
 m = Machine(joints=5, axes="xyzbc", kins="xyzbc-trt-kins", high=200, low=-200, eoffset_ratio=0.3,
-            kins_setup=["setp xyzbc-trt-kins.z-rot-point -30", "setp xyzbc-trt-kins.x-offset 4", "setp xyzbc-trt-kins.z-offset 7"],
+            kins_setup=["setp xyzbc-trt-kins.z-rot-point -30", "setp xyzbc-trt-kins.x-offset 4",
+                        "setp xyzbc-trt-kins.z-offset 7"],
             home_params={j: dict(offset=q, home=q) for j, q in enumerate((1.0, 2.0, 3.0, 20.0, 40.0))})
 for value, shown in ((0, 0), (1, 1), (2, 2), (1, 1), (0, 0)):
     switch(m, value)
-    check([m.get(f"kinstype.is-{n}") for n in range(3)] == [n == shown for n in range(3)], f"kinstype pins in type {value}")
+    check([m.get(f"kinstype.is-{n}") for n in range(3)] == [n == shown for n in range(3)],
+          f"kinstype pins in type {value}")
 m.mode(km.COORD)
 switch(m, 1)
 near(pose(m)[:5], [1, 2, 3, 0, 20], "identity")
@@ -105,7 +107,8 @@ for name, joints, axes, types, prefix, dummy in (
     for value in [*range(types), 7, 0]:
         switch(m, value)
         on = value if value < types else types - 1
-        check([m.get(f"kinstype.is-{n}") for n in range(types)] == [n == on for n in range(types)], f"{name} type {value}")
+        check([m.get(f"kinstype.is-{n}") for n in range(types)] == [n == on for n in range(types)],
+              f"{name} type {value}")
         check((value < types) != any("BAD VALUE <7>" in e for e in m.errors()), f"{name} type {value}: message")
         m.send(km.ABORT)
         m.mode(km.TELEOP)
@@ -113,7 +116,8 @@ for name, joints, axes, types, prefix, dummy in (
     m.close()
 
 # a module in plain C that uses posemath.h
-m = Machine(joints=3, kins="kerf_test_tower", low=-200, high=200, home_params={j: dict(offset=q, home=q) for j, q in enumerate((100.0, 0.0, 0.0))})
+m = Machine(joints=3, kins="kerf_test_tower", low=-200, high=200,
+            home_params={j: dict(offset=q, home=q) for j, q in enumerate((100.0, 0.0, 0.0))})
 m.set("kerf_test_tower.shown", 4)
 m.mode(km.COORD)
 near(pose(m)[:3], [0, 0, 0], "tower")

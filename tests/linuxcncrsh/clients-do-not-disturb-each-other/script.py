@@ -20,7 +20,8 @@ print("== one command at a time, but stopping always goes")
 mode(MODE_MDI)
 a.send("SET MDI G0 X50", MARK)
 until(lambda s: s.interp_state != INTERP_IDLE)
-for line in ("SET MIST ON", "SET MODE MANUAL", "GET MODE", "SET MACHINE ON", "SET ESTOP OFF", "SET WAIT_HEARTBEAT", "SET ABORT"):
+for line in ("SET MIST ON", "SET MODE MANUAL", "GET MODE", "SET MACHINE ON", "SET ESTOP OFF",
+             "SET WAIT_HEARTBEAT", "SET ABORT"):
     print("b>", line, b.say(line))
 print("a<", a.read(b"PLAT Linux\r\n"))
 print("b>", b.say("SET MIST ON"), b.say("SET MIST OFF"))
@@ -69,21 +70,27 @@ print(b.say("GET MIST"))
 words = [line.split()[0] for line in b.say("HELP SET")[1:] if line.startswith("    ")]
 print("== every subcommand: none, a wrong one and too many parameters; one answer each")
 wrong = []
-for word in sorted(({line.split()[0] for line in b.say("HELP GET")[1:] if line.startswith("    ")} | set(words)) - {"PLAT"}):
+for word in sorted(({line.split()[0] for line in b.say("HELP GET")[1:] if line.startswith("    ")} | set(words))
+                   - {"PLAT"}):
     for verb in ("GET", "SET"):
         for parameters in ("", "?", "? ? ? ? ? ? ? ? ? ? ? ?", "-1 0 0 0 0 0 0 0 0 0 0 0"):
             if verb == "SET":
-                b.say("HELLO EMC b", "SET ENABLE EMCTOO", "SET VERBOSE ON", "SET ECHO OFF", "SET TIMESTAMP OFF", "SET WAIT_MODE RECEIVED", "SET TIMEOUT 0")
+                b.say("HELLO EMC b", "SET ENABLE EMCTOO", "SET VERBOSE ON", "SET ECHO OFF", "SET TIMESTAMP OFF",
+                      "SET WAIT_MODE RECEIVED", "SET TIMEOUT 0")
             answer = b.say(f"{verb} {word} {parameters}")
             ends = [line for line in answer if line in (f"{verb} {word} ACK", f"{verb} {word} NAK")]
-            if verb == "SET" and len(ends) != 1 or verb == "GET" and (not answer and word not in ("WAIT", "WAIT_HEARTBEAT", "PROBE", "PROBE_CLEAR") or len(ends) > 1):
+            if (verb == "SET" and len(ends) != 1 or verb == "GET"
+                    and (not answer and word not in ("WAIT", "WAIT_HEARTBEAT", "PROBE", "PROBE_CLEAR")
+                         or len(ends) > 1)):
                 wrong.append((verb, word, parameters, answer))
 b.say("SET ABORT", "SET WAIT_MODE DONE", "SET MODE MANUAL")
 print("wrong:", wrong, "alive:", server.process.poll())
 print("== nonsense of all kinds")
 dice = random.Random(4)
-values = ["", "-1", "0", "99999999999", "-2147483649", "x", "1e400", "nan", "on", "\x00\x01", "%s%n", "'\"", "ä" * 30, "X", "a b c d e f g", "A" * 300]
-skipped = {"JOINT_WAIT_HOMED", "WAIT", "STEP", "TIMESTAMP", "ECHO", "VERBOSE", "ENABLE", "DISABLE", "RUN", "WAIT_MODE", "MACHINE", "ESTOP", "TIMEOUT"}
+values = ["", "-1", "0", "99999999999", "-2147483649", "x", "1e400", "nan", "on", "\x00\x01", "%s%n", "'\"", "ä" * 30,
+          "X", "a b c d e f g", "A" * 300]
+skipped = {"JOINT_WAIT_HOMED", "WAIT", "STEP", "TIMESTAMP", "ECHO", "VERBOSE", "ENABLE", "DISABLE", "RUN", "WAIT_MODE",
+           "MACHINE", "ESTOP", "TIMEOUT"}
 for n in range(400):
     verb = dice.choice(["GET", "SET", "SET"])
     word = dice.choice([w for w in words if verb == "GET" or w not in skipped])

@@ -17,7 +17,8 @@ def free_port():
 class Server:
     def __init__(self, *options, ini="mill.ini", wait=True):
         self.port = free_port()
-        self.process = clock.spawn(["linuxcncrsh", "-q", "-p", str(self.port), *options, "--", "-ini", ini], "linuxcncrsh")
+        self.process = clock.spawn(["linuxcncrsh", "-q", "-p", str(self.port), *options, "--", "-ini", ini],
+                                   "linuxcncrsh")
         while wait:
             try:
                 socket.create_connection(("127.0.0.1", self.port)).close()

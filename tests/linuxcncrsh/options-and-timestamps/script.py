@@ -14,7 +14,8 @@ for options in (["-p", "0"], ["-p", "65535"], ["-p", "x"], ["-e", "OFF"], ["-e",
     done = subprocess.run(["linuxcncrsh", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     print(options, done.returncode, bool(done.stderr), done.stdout)
 for options in (["-p", "5007x"], ["-s", "x"], ["-s", "-1"]):
-    print(options, subprocess.run(["linuxcncrsh", *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout.strip())
+    print(options, subprocess.run(["linuxcncrsh", *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  text=True).stdout.strip())
 print("-h", subprocess.run(["linuxcncrsh", "-h"], stdout=subprocess.DEVNULL).returncode)
 
 server = Server("-n", "shop", "-w", "hi", "-e", "open", "-s", "2", "-4", wait=False)
@@ -70,12 +71,15 @@ try:
     print("let in" if not own_address().startswith("127.") else "not")
 except OSError:
     print("not")
-again = clock.run(["linuxcncrsh", "-q", "-p", str(six.port), "--", "-ini", "mill.ini"], stderr=subprocess.PIPE, text=True)
+again = clock.run(["linuxcncrsh", "-q", "-p", str(six.port), "--", "-ini", "mill.ini"],
+                  stderr=subprocess.PIPE, text=True)
 print("port taken:", again.returncode, str(six.port) in again.stderr)
-print(clock.run(["linuxcncrsh", "--", "-ini", "none.ini"], stderr=subprocess.DEVNULL).returncode, six.stop(), server.stop())
+print(clock.run(["linuxcncrsh", "--", "-ini", "none.ini"], stderr=subprocess.DEVNULL).returncode,
+      six.stop(), server.stop())
 
 # Other addresses: only with passwords of one's own, which do not travel.
-done = clock.run(["linuxcncrsh", "-q", "-p", str(free_port()), "-b", "*", "--", "-ini", "mill.ini"], stderr=subprocess.PIPE, text=True)
+done = clock.run(["linuxcncrsh", "-q", "-p", str(free_port()), "-b", "*", "--", "-ini", "mill.ini"],
+                 stderr=subprocess.PIPE, text=True)
 print("default passwords on all addresses:", done.returncode, "--connectpw" in done.stderr)
 wide = Server("-b", "*", "-w", "mine", "-e", "minetoo", "-4")
 a = Client(wide, enable=False)
@@ -86,7 +90,8 @@ def answer(password):
 
 
 first = answer("mine")
-print("answer:", a.say(f"HELLO {first} x 1"), "again:", a.say(f"HELLO {first} x 1"), "wrong:", a.say(f"HELLO {answer('yours')} x 1"))
+print("answer:", a.say(f"HELLO {first} x 1"), "again:", a.say(f"HELLO {first} x 1"), "wrong:",
+      a.say(f"HELLO {answer('yours')} x 1"))
 print("enable:", a.say(f"HELLO {answer('mine')} x 1"), a.say(f"SET ENABLE {answer('minetoo')}", "GET ENABLE"))
 print("clear text from this computer:", a.say("HELLO mine x 1", "SET ENABLE minetoo", "GET ENABLE"))
 here = own_address()

@@ -1,6 +1,6 @@
-# A jog of Y takes the joint of Y to its limit while an external offset turns the head, which leads the joint back in. When
-# both have to stop, Y stands long before the head does: at the end the joint is well inside, but between it may not go
-# out. In all directions, at several speeds and tilts, with and without a jerk limit.
+# A jog of Y takes the joint of Y to its limit while an external offset turns the head, which leads the joint back in.
+# When both have to stop, Y stands long before the head does: at the end the joint is well inside, but between it may
+# not go out. In all directions, at several speeds and tilts, with and without a jerk limit.
 import kerf_motion as km
 from fuzz import machine
 from motion_bench import AXES, eq

@@ -8,7 +8,8 @@ import random
 import kerf_motion as km
 from motion_bench import Machine, eq
 
-m = Machine(joints=3, vel=60.0, acc=[600.0, 300.0, 60.0], jerk=[8000.0, 3000.0, 300.0], low=-1000, high=1000, traj_jerk=8000.0)
+m = Machine(joints=3, vel=60.0, acc=[600.0, 300.0, 60.0], jerk=[8000.0, 3000.0, 300.0], low=-1000, high=1000,
+            traj_jerk=8000.0)
 rng = random.Random(1)
 for n in range(24):
     teleop, j = n % 2, n % 3
@@ -66,7 +67,8 @@ for n in range(40):
     peak = math.sqrt(jerk * v * side + 0.5 * a * a)
     soonest, began = (a * side + 2 * peak) / jerk, m.now()
     m.wait(lambda s: m.get(f"joint.{j}.vel-cmd") == 0 and s["inpos"], "rest")
-    eq(m.now() - began < 1.1 * soonest + 0.01, True, f"joint {j} rests {m.now() - began} s after {v} {a}, not {soonest}")
+    eq(m.now() - began < 1.1 * soonest + 0.01, True,
+       f"joint {j} rests {m.now() - began} s after {v} {a}, not {soonest}")
     eq(m.violations(), [], f"turn {n}")
 eq(turned > 20, True, turned)
 m.close()

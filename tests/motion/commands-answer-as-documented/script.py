@@ -2,8 +2,9 @@
 # Covers of the field problems: FP-065 and FP-066 (a jog moves the named joint or axis alone, whatever
 # came before), FP-068 (an override of limits ends with the first jog, for the tripped switch only),
 # FP-069 (a jog back inside is accepted), FP-070 (a position reached by jogging is legal), FP-071
-# (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others; more in tests/task/fp-072-...), FP-097
-# (the machine never goes off without a word, also where a joint has shown an error before).
+# (unhomed joints jog both ways), FP-072 and FP-076 (contacts in probe moves and in others; more in
+# tests/task/fp-072-...), FP-097 (the machine never goes off without a word, also where a joint
+# has shown an error before).
 import os
 import tempfile
 
@@ -37,7 +38,8 @@ def moved(before, but):
 
 # ---- before machine on
 refused(UNKNOWN, "unrecognized command 200", 200)
-refused(INVALID_COMMAND, "need to be enabled, in coord mode for linear move", km.SET_LINE, pos=[1, 2, 3], id=7, vel=1, acc=1)
+refused(INVALID_COMMAND, "need to be enabled, in coord mode for linear move", km.SET_LINE, pos=[1, 2, 3], id=7,
+        vel=1, acc=1)
 eq(m.status()["error"], True, "error flag")
 refused(INVALID_COMMAND, "need to be enabled, in coord mode for circular move", km.SET_CIRCLE, pos=[1, 2, 3])
 refused(INVALID_COMMAND, "need to be enabled, in coord mode for probe move", km.PROBE, pos=[1, 2, 3])
@@ -143,8 +145,8 @@ m.line(90, 30, 30)
 m.rest()
 for normal, line in ((1, 4), (-1, 5)):
     beyond = normal > 0  # counter-clockwise it bulges over x = 100
-    m.send(km.SET_CIRCLE, pos=[90, 60, 30], center=[90, 45, 30], normal=[0, 0, normal], id=line, vel=20, ini_maxvel=20, acc=500,
-           ini_maxjerk=5000, motion_type=3, turn=0)
+    m.send(km.SET_CIRCLE, pos=[90, 60, 30], center=[90, 45, 30], normal=[0, 0, normal], id=line, vel=20,
+           ini_maxvel=20, acc=500, ini_maxjerk=5000, motion_type=3, turn=0)
     eq(m.status()["commandStatus"], INVALID_PARAMS if beyond else OK, "arc beyond a limit")
     told(*(("Circular move on line 4 would exceed X's positive limit",
             "Circular move on line 4 would exceed joint 0's positive limit max:[100.000000]") if beyond else ()))
@@ -153,10 +155,11 @@ eq([round(x, 6) for x in m.joints_at()], [90, 60, 30], "the arc that stays insid
 m.line(60, 30 - 24.9, 30)
 m.rest()
 # a spiral is farthest out where its growth ends its way inward: 99.9 straight beside the centre, 100.96 later
-m.send(km.SET_CIRCLE, pos=[60 + 49.9 * 0.5, 30 + 49.9 * 0.75 ** 0.5, 30], center=[60, 30, 30], normal=[0, 0, 1], id=6, vel=20,
-       ini_maxvel=20, acc=500, ini_maxjerk=5000, motion_type=3, turn=0)
+m.send(km.SET_CIRCLE, pos=[60 + 49.9 * 0.5, 30 + 49.9 * 0.75 ** 0.5, 30], center=[60, 30, 30], normal=[0, 0, 1],
+       id=6, vel=20, ini_maxvel=20, acc=500, ini_maxjerk=5000, motion_type=3, turn=0)
 eq(m.status()["commandStatus"], INVALID_PARAMS, "spiral beyond a limit")
-told("Circular move on line 6 would exceed X's positive limit", "Circular move on line 6 would exceed joint 0's positive limit max:[100.000000]")
+told("Circular move on line 6 would exceed X's positive limit",
+     "Circular move on line 6 would exceed joint 0's positive limit max:[100.000000]")
 
 # ---- faults; joint, value and limit are in the log
 m.mode(km.FREE)
@@ -216,7 +219,8 @@ eq(m.get("motion.on-soft-limit"), True, "on soft limit")
 refused(OK, "Can't jog joint 1 further past max soft limit.", km.JOG_CONT, joint=1, axis=-1, vel=5)
 m.send(km.JOG_INCR, joint=1, axis=-1, vel=-50, offset=20)
 m.rest()
-eq((round(m.joints_at()[1], 9), m.get("motion.on-soft-limit"), m.get("joint.1.homed")), (30, False, True), "back inside")
+eq((round(m.joints_at()[1], 9), m.get("motion.on-soft-limit"), m.get("joint.1.homed")),
+   (30, False, True), "back inside")
 m.send(km.SET_JOINT_POSITION_LIMITS, joint=1, minLimit=-100, maxLimit=100)
 
 # ---- probing
@@ -226,7 +230,8 @@ PROBING, TRAVERSE = 5, 1
 
 def probe(kind, x, at=None, back=False):
     m.send(km.CLEAR_PROBE_FLAGS)
-    m.send(km.PROBE, pos=[x, 30, 30], vel=20, ini_maxvel=20, acc=500, ini_maxjerk=5000, id=1, motion_type=PROBING, probe_type=kind)
+    m.send(km.PROBE, pos=[x, 30, 30], vel=20, ini_maxvel=20, acc=500, ini_maxjerk=5000, id=1, motion_type=PROBING,
+           probe_type=kind)
     if at is not None:
         m.wait(lambda s: abs(m.joints_at()[0] - at) < 0.1, "place of the contact")
         m.set("motion.probe-input", 0 if kind & 2 else 1)
@@ -246,8 +251,8 @@ m.errors()
 s = probe(0, 80, 85, back=True)
 eq((s["probeTripped"], s["probing"], abs(s["probedPos"][0] - 85) < 0.2), (1, 0, True), "G38.2 contact")
 told(what="bounce of a contact")
-refused(BAD_EXEC, "Probe is already tripped when starting G38.2 or G38.3 move", km.PROBE, pos=[70, 30, 30], vel=1, acc=1,
-        motion_type=PROBING, probe_type=0)
+refused(BAD_EXEC, "Probe is already tripped when starting G38.2 or G38.3 move", km.PROBE, pos=[70, 30, 30],
+        vel=1, acc=1, motion_type=PROBING, probe_type=0)
 s = probe(2, 70, 78)
 eq(s["probeTripped"], 1, "G38.4 loses contact")
 refused(BAD_EXEC, "Probe is already clear when starting G38.4 or G38.5 move", km.PROBE, pos=[70, 30, 30], vel=1, acc=1,
@@ -316,8 +321,10 @@ for code, fields, text in (
     refused(INVALID_COMMAND, text, code, spindle=5, **fields)
 refused(OK, "Problem:\n  motmod configured for 2 spindles\n  but command requests 3 spindles\n  Using: 2 spindles",
         km.SET_NUM_SPINDLES, spindle=3)
-refused(OK, "ERROR: index out of range, 4 not in [0..4] (increase num_dio/EMCMOT_MAX_DIO=64)", km.SET_DOUT, out=4, now=1, start=1)
-refused(OK, "ERROR: index out of range, 2 not in [0..2] (increase num_aio/EMCMOT_MAX_AIO=64)", km.SET_AOUT, out=2, now=1, minLimit=1)
+refused(OK, "ERROR: index out of range, 4 not in [0..4] (increase num_dio/EMCMOT_MAX_DIO=64)", km.SET_DOUT, out=4,
+        now=1, start=1)
+refused(OK, "ERROR: index out of range, 2 not in [0..2] (increase num_aio/EMCMOT_MAX_AIO=64)", km.SET_AOUT, out=2,
+        now=1, minLimit=1)
 m.send(km.SET_DOUT, out=3, now=1, start=1)
 m.send(km.SET_AOUT, out=1, now=1, minLimit=2.5)
 eq((m.get("motion.digital-out-03"), m.get("motion.analog-out-01")), (True, 2.5), "outputs at once")
@@ -342,6 +349,7 @@ told("joint 2 amplifier fault")
 eq(m.status()["enabled"], False, "off after a fault beside an error")
 m.close()
 lines = [x[8:].strip() for x in open(log.name) if x.startswith("motion: joint")]
-eq(lines[:2], ["joint 1: negative limit switch at position 5.10000", "joint 2: amplifier fault at position 30.00000"], "log")
+eq(lines[:2], ["joint 1: negative limit switch at position 5.10000", "joint 2: amplifier fault at position 30.00000"],
+   "log")
 eq(lines[2].startswith("joint 0: following error 0.50000, limit 0.00000 at velocity"), True, f"log {lines[2]}")
 print(f"{eq.checks} checks")

@@ -8,7 +8,8 @@ def compensate(m):
     for j in range(m.joints):
         if j == 0:
             for n in range(-10, 11):
-                m.send(km.SET_JOINT_COMP, joint=0, comp_nominal=10.0 * n, comp_forward=0.03 * (n % 3), comp_reverse=-0.05 * (n % 2))
+                m.send(km.SET_JOINT_COMP, joint=0, comp_nominal=10.0 * n, comp_forward=0.03 * (n % 3),
+                       comp_reverse=-0.05 * (n % 2))
         else:
             m.send(km.SET_JOINT_BACKLASH, joint=j, backlash=(0.02, 0.5, 5.0)[j % 3])
 

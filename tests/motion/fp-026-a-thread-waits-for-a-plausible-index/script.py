@@ -8,8 +8,8 @@ import kerf_motion as km
 from motion_bench import Machine
 
 TEETH, PITCH = 24, 2.0
-HAL = ["loadrt sim_encoder num_chan=1", "loadrt encoder num_chan=1", "loadrt and2", "loadrt not count=2", "loadrt flipflop",
-       f"setp sim-encoder.0.ppr {TEETH}", f"setp encoder.0.position-scale {TEETH}",
+HAL = ["loadrt sim_encoder num_chan=1", "loadrt encoder num_chan=1", "loadrt and2", "loadrt not count=2",
+       "loadrt flipflop", f"setp sim-encoder.0.ppr {TEETH}", f"setp encoder.0.position-scale {TEETH}",
        "setp encoder.0.counter-mode 1", "setp encoder.0.missing-teeth 1",
        # tooth 0 is missing: its phase A does not get through
        "net a sim-encoder.0.phase-A => and2.0.in0 not.0.in", "net b not.0.out => flipflop.0.reset",
@@ -31,7 +31,8 @@ def z(): return m.get("joint.2.pos-cmd")
 
 
 def thread(end):
-    """Cuts to Z end, from 0. Returns the angle of the wheel where the thread begins, in revolutions, and what was told."""
+    """Cuts to Z end, from 0. Returns the angle of the wheel where the thread begins, in
+    revolutions, and what was told."""
     m.send(km.SET_SPINDLESYNC, spindle=0, spindlesync=PITCH, flags=0)
     m.line(0, 0, end, vel=60, acc=600)
     m.send(km.SET_SPINDLESYNC, spindle=0, spindlesync=0, flags=0)

@@ -37,8 +37,8 @@ def automatic(m, kind, letters):
         here = list(m.status()["carte_pos_cmd"])
         end = list(here)
         end[1] += 2
-        m.send(km.SET_CIRCLE, pos=end, center=[here[0], here[1] + 1, here[2]], normal=[0, 0, 1], vel=20, ini_maxvel=20, acc=300,
-               ini_maxjerk=1e9, id=2, motion_type=3, turn=0)
+        m.send(km.SET_CIRCLE, pos=end, center=[here[0], here[1] + 1, here[2]], normal=[0, 0, 1], vel=20,
+               ini_maxvel=20, acc=300, ini_maxjerk=1e9, id=2, motion_type=3, turn=0)
         m.rest()
         pose = here
     m.send(km.PROBE if kind == PROBE else km.SET_LINE, pos=pose, vel=20, ini_maxvel=20, acc=300, ini_maxjerk=1e9, id=3,
@@ -89,16 +89,19 @@ def machine(letters, rng):
                 title = f"{letters} {letter} to {limit!r} in mode {mode}"
                 m.mode(mode)
                 before = m.joints_at()
-                m.send(km.JOG_CONT, joint=j if mode == km.FREE else -1, axis=-1 if mode == km.FREE else AXES.index(letter), vel=sign * 50)
+                m.send(km.JOG_CONT, joint=j if mode == km.FREE else -1,
+                       axis=-1 if mode == km.FREE else AXES.index(letter), vel=sign * 50)
                 m.sleep(0.005)
                 only(m, title, before, {j: round(limit - before[j], 9)})
                 m.mode(km.COORD)
                 pose = list(m.status()["carte_pos_cmd"])
-                pose[AXES.index(letters[j - 1])] += -0.25 if j != 0 or n > 1 and m.joints_at()[j - 1] > middle[j - 1] else 0.25
+                pose[AXES.index(letters[j - 1])] += (-0.25 if j != 0 or n > 1 and m.joints_at()[j - 1] > middle[j - 1]
+                                                     else 0.25)
                 for axis in AXES:
                     if axis not in letters:
                         pose[AXES.index(axis)] = 2e-13  # what a rotated system leaves of an axis that is not there
-                m.send(km.SET_LINE, pos=pose, vel=20, ini_maxvel=20, acc=300, ini_maxjerk=1e9, id=4, motion_type=2, turn=-1)
+                m.send(km.SET_LINE, pos=pose, vel=20, ini_maxvel=20, acc=300, ini_maxjerk=1e9, id=4,
+                       motion_type=2, turn=-1)
                 m.rest()
                 eq(m.errors(), [], f"{title}: then a move along it")
                 m.mode(km.FREE)
@@ -119,7 +122,8 @@ def machine(letters, rng):
     m.errors()
     m.send(km.JOG_INCR, joint=-1, axis=AXES.index(letters[0]), vel=-20, offset=5)
     m.sleep(1)
-    eq((round(m.joints_at()[0] - at, 9), m.get("motion.on-soft-limit"), m.get("joint.0.homed")), (-5, False, True), f"{letters}: back inside")
+    eq((round(m.joints_at()[0] - at, 9), m.get("motion.on-soft-limit"), m.get("joint.0.homed")), (-5, False, True),
+       f"{letters}: back inside")
     eq(m.violations(), [], f"{letters}: limits")
     m.close()
 

@@ -125,7 +125,8 @@ class Sequence:
     def fault(self):
         """An amplifier, the spindle, the enable input or a hard limit stops the machine; it is switched on again."""
         j = self.rng.randrange(self.m.joints)
-        pin, bad = self.rng.choice([(f"joint.{j}.amp-fault-in", 1), ("spindle.0.amp-fault-in", 1), ("motion.enable", 0)])
+        pin, bad = self.rng.choice([(f"joint.{j}.amp-fault-in", 1), ("spindle.0.amp-fault-in", 1),
+                                    ("motion.enable", 0)])
         self.note(f"fault {pin}")
         self.m.set(pin, bad)
         self.m.sleep(self.rng.uniform(0.001, 0.02))

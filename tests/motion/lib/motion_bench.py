@@ -227,8 +227,10 @@ def halcmd(lines):
 
 def refuse_used_instance():
     """Two machines in one instance would take each other's pins away."""
-    if clock.run(["realtime", "status"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
-        raise SystemExit(f"instance {os.environ.get('KERF_INSTANCE') or '(default)'} is in use: end its session, or set KERF_INSTANCE")
+    if clock.run(["realtime", "status"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                 stderr=subprocess.DEVNULL).returncode == 0:
+        raise SystemExit(f"instance {os.environ.get('KERF_INSTANCE') or '(default)'} is in use: end its session, or "
+                         "set KERF_INSTANCE")
 
 
 def run_realtime(word):

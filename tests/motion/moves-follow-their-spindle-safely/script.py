@@ -10,7 +10,8 @@ import kerf_motion as km
 from motion_bench import Machine, eq, halcmd
 
 PITCH = 1.5  # units per revolution
-MARGIN, LAG = 1.03, 1.2  # axis speed may be so much above pitch times spindle speed: factor, and units/s while that changes
+# axis speed may be so much above pitch times spindle speed: factor, and units/s while that changes
+MARGIN, LAG = 1.03, 1.2
 log = tempfile.NamedTemporaryFile()
 os.environ["MOTION_BENCH_LOG"] = log.name
 HAL = ["loadrt sim_spindle count=2", "loadrt limit2 count=2", "loadrt near count=2"]
@@ -29,7 +30,8 @@ for n in (0, 1):
 
 
 def spindle(n, rpm):
-    m.send(km.SPINDLE_ON if rpm else km.SPINDLE_OFF, spindle=n, vel=rpm, state=1, ini_maxvel=0, acc=0, wait_for_spindle_at_speed=1)
+    m.send(km.SPINDLE_ON if rpm else km.SPINDLE_OFF, spindle=n, vel=rpm, state=1, ini_maxvel=0, acc=0,
+           wait_for_spindle_at_speed=1)
 
 
 def z(): return m.get("joint.2.pos-cmd")
@@ -146,7 +148,8 @@ for rpm in (100, 200, 800):
             worst[0] = max(worst[0], abs(m.get("joint.2.acc-cmd")))
     watch(at_rest, look, fast=61)
     eq({round(x, 9) for x in corner}, {5.0}, f"FP-019: X while the thread is cut at {rpm}")
-    c = math.atan2(sum(math.sin(2 * math.pi * f) for f in found), sum(math.cos(2 * math.pi * f) for f in found)) / (2 * math.pi)
+    c = math.atan2(sum(math.sin(2 * math.pi * f) for f in found),
+                   sum(math.cos(2 * math.pi * f) for f in found)) / (2 * math.pi)
     phases[rpm] = c % 1
     eq(worst[0] < 0.02 * 600, True, f"FP-031: acceleration with an ideal encoder at {rpm}: {worst[0]}")
     eq(m.violations(), [], "limits")
@@ -168,7 +171,8 @@ print("threads begin at the same place at any speed")
 # FP-020: a pitch the axis can't keep, at the start and later
 def too_fast(what):
     told = m.errors()
-    eq((len(told), told and told[0].startswith("line 1: following spindle 0 needs ")), (1, True), f"FP-020 {what}: {told}")
+    eq((len(told), told and told[0].startswith("line 1: following spindle 0 needs ")), (1, True),
+       f"FP-020 {what}: {told}")
     m.send(km.ABORT)
     m.rest()
 
@@ -207,7 +211,8 @@ for stop, go in ((lambda: m.send(km.PAUSE), lambda: m.send(km.RESUME)),
     sync(0)
     watch(lambda: z() < -4)
     stop()
-    watch(lambda: z() < -12, lambda: eq(m.get("joint.2.vel-cmd") < -0.97 * PITCH * 5, True, "FP-024: speed in a held thread"))
+    watch(lambda: z() < -12, lambda: eq(m.get("joint.2.vel-cmd") < -0.97 * PITCH * 5, True,
+                                        "FP-024: speed in a held thread"))
     go()
     watch(at_rest)
 eq(m.violations(), [], "limits")
@@ -241,18 +246,19 @@ sync(PITCH, n=1)
 line(0, -20)
 sync(0)
 asked = []
-eq(watch(at_rest, lambda: asked.append((m.get("spindle.0.index-enable"), m.get("spindle.1.index-enable"))), n=1) > 0.97 * PITCH * 10,
-   True, "FP-028: speed of a thread on spindle 1")
+eq(watch(at_rest, lambda: asked.append((m.get("spindle.0.index-enable"), m.get("spindle.1.index-enable"))), n=1) > 0.97
+   * PITCH * 10, True, "FP-028: speed of a thread on spindle 1")
 eq({a for a in asked}, {(False, True), (False, False)}, "FP-028: whose index is asked for")
 eq([t.strip() for t in m.errors()], [], "FP-028: messages")
 
 # FP-031: an encoder of 256 counts: the feed swings by no more than one count per period of the servo thread
 spindle(0, 300)
 m.sleep(3)
-for f in ("loadrt conv_float_s32", "loadrt conv_s32_float", "loadrt scale count=2", "setp scale.0.gain 256", f"setp scale.1.gain {1 / 256}",
-          "unlinkp spindle.0.revs", "net revs0 => scale.0.in", "net up scale.0.out => conv-float-s32.0.in",
-          "net count conv-float-s32.0.out => conv-s32-float.0.in", "net down conv-s32-float.0.out => scale.1.in",
-          "net coarse scale.1.out => spindle.0.revs", "addf scale.0 servo-thread 4", "addf conv-float-s32.0 servo-thread 5",
+for f in ("loadrt conv_float_s32", "loadrt conv_s32_float", "loadrt scale count=2", "setp scale.0.gain 256",
+          f"setp scale.1.gain {1 / 256}", "unlinkp spindle.0.revs", "net revs0 => scale.0.in",
+          "net up scale.0.out => conv-float-s32.0.in", "net count conv-float-s32.0.out => conv-s32-float.0.in",
+          "net down conv-s32-float.0.out => scale.1.in", "net coarse scale.1.out => spindle.0.revs",
+          "addf scale.0 servo-thread 4", "addf conv-float-s32.0 servo-thread 5",
           "addf conv-s32-float.0 servo-thread 6", "addf scale.1 servo-thread 7"):
     halcmd([f])
 back()
@@ -271,9 +277,11 @@ spindle(0, 0)
 m.send(km.SET_SPINDLE_PARAMS, spindle=0, maxLimit=1e9, minLimit=-1e9, offset=100)
 m.set("limit2.1.maxv", 5)
 spindle(1, 0)
-m.send(km.PROBE, pos=[0, 0, -5] + [0] * 6, vel=10, ini_maxvel=10, acc=600, ini_maxjerk=1e9, id=8, motion_type=5, probe_type=1)
+m.send(km.PROBE, pos=[0, 0, -5] + [0] * 6, vel=10, ini_maxvel=10, acc=600, ini_maxjerk=1e9, id=8,
+       motion_type=5, probe_type=1)
 moved_at = []
-m.wait(lambda s: (z() != 0 and not moved_at and moved_at.append(m.get("spindle.1.speed-in"))) or (s["inpos"] and s["depth"] == 0), "end of the probe move")
+m.wait(lambda s: (z() != 0 and not moved_at and moved_at.append(m.get("spindle.1.speed-in")))
+       or (s["inpos"] and s["depth"] == 0), "end of the probe move")
 eq(abs(moved_at[0]) < 0.011, True, f"FP-023: the spindle turned at {moved_at} rev/s when probing began")
 m.set("limit2.1.maxv", 0)  # never gets there
 spindle(1, 600)
@@ -289,5 +297,6 @@ m.set("limit2.1.maxv", 100)
 m.sleep(1)
 m.close()
 waits = [x.strip() for x in open(log.name) if "waits for" in x]
-eq([w for w in waits if "at-speed" in w], ["motion: line 8 waits for spindle.1.at-speed", "motion: line 9 waits for spindle.1.at-speed"], "FP-027")
+eq([w for w in waits if "at-speed" in w],
+   ["motion: line 8 waits for spindle.1.at-speed", "motion: line 9 waits for spindle.1.at-speed"], "FP-027")
 print("waits are named and can be ended")

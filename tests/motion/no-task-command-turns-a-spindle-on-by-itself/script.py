@@ -18,7 +18,8 @@ with open(PROGRAM, "w") as f:
 
 
 def outputs():
-    return {f"{n}.{p}": hal.get_value(f"spindle.{n}.{p}") for n in (0, 1) for p in ("on", "forward", "reverse", "orient", "speed-out-abs")}
+    return {f"{n}.{p}": hal.get_value(f"spindle.{n}.{p}") for n in (0, 1)
+            for p in ("on", "forward", "reverse", "orient", "speed-out-abs")}
 
 
 def mdi(text):
@@ -51,13 +52,16 @@ ACTS = {
     "g96": (mdi("g96 d900 s100"), SPEED), "g97": (mdi("g97 s400"), SPEED), "move": (mdi("g1 x3 f900"), NOTHING),
     "m2": (mdi("m2"), NOTHING), "abort": (c.abort, NOTHING), "estop": (lambda: c.state(STATE_ESTOP), NOTHING),
     "reset": (lambda: c.state(STATE_ESTOP_RESET), NOTHING), "machine on": (lambda: c.state(STATE_ON), NOTHING),
-    "machine off": (lambda: c.state(STATE_OFF), NOTHING), "manual": (mode(MODE_MANUAL), NOTHING), "auto": (mode(MODE_AUTO), NOTHING),
-    "pause": (lambda: c.auto(AUTO_PAUSE), NOTHING), "resume": (lambda: c.auto(AUTO_RESUME), NOTHING),
-    "step": (lambda: c.auto(AUTO_STEP), TURN), "run": (run, TURN), "spindle on": (lambda: c.spindle(SPINDLE_FORWARD, 350), TURN),
+    "machine off": (lambda: c.state(STATE_OFF), NOTHING), "manual": (mode(MODE_MANUAL), NOTHING),
+    "auto": (mode(MODE_AUTO), NOTHING), "pause": (lambda: c.auto(AUTO_PAUSE), NOTHING),
+    "resume": (lambda: c.auto(AUTO_RESUME), NOTHING),
+    "step": (lambda: c.auto(AUTO_STEP), TURN), "run": (run, TURN),
+    "spindle on": (lambda: c.spindle(SPINDLE_FORWARD, 350), TURN),
     "spindle off": (lambda: c.spindle(SPINDLE_OFF), NOTHING), "half speed": (lambda: c.spindleoverride(0.5), NOTHING),
     "override": (lambda: c.spindleoverride(1.0), SPEED), "init": (c.task_plan_synch, NOTHING),
-    "restart": (lambda: (c.state(STATE_ESTOP_RESET), c.state(STATE_ON)), NOTHING), "teleop": (lambda: c.teleop_enable(1), NOTHING), "free": (lambda: c.teleop_enable(0), NOTHING), "home": (lambda: c.home(0), NOTHING),
-}
+    "restart": (lambda: (c.state(STATE_ESTOP_RESET), c.state(STATE_ON)), NOTHING),
+    "teleop": (lambda: c.teleop_enable(1), NOTHING), "free": (lambda: c.teleop_enable(0), NOTHING),
+    "home": (lambda: c.home(0), NOTHING), }
 c.state(STATE_ESTOP_RESET)
 c.state(STATE_ON)
 need(lambda s: s.task_state == STATE_ON, "machine on")

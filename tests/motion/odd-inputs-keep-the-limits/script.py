@@ -1,6 +1,6 @@
-# Random sequences with inputs that no sound machine gives: wheels whose counts jump and wrap, scales that change in mid-jog
-# or are no numbers, adaptive feeds that go negative and are no numbers, a feed hold in a probe move, an index that is
-# never answered, a limit switch in homing, five axes jogged with the tool tilted.
+# Random sequences with inputs that no sound machine gives: wheels whose counts jump and wrap, scales that change in
+# mid-jog or are no numbers, adaptive feeds that go negative and are no numbers, a feed hold in a probe move, an index
+# that is never answered, a limit switch in homing, five axes jogged with the tool tilted.
 import sys
 
 import kerf_motion as km
@@ -33,8 +33,9 @@ class Odd(Sequence):
 
     def probe(self):
         """Held in the move, tripped while it is held or brakes."""
-        self.m.send(km.PROBE, pos=self.pose(), vel=self.rng.uniform(1, 30), ini_maxvel=self.m.path_vel, acc=self.m.path_acc,
-                    ini_maxjerk=self.m.path_jerk, id=self.id, motion_type=5, probe_type=self.rng.randrange(4))
+        self.m.send(km.PROBE, pos=self.pose(), vel=self.rng.uniform(1, 30), ini_maxvel=self.m.path_vel,
+                    acc=self.m.path_acc, ini_maxjerk=self.m.path_jerk, id=self.id, motion_type=5,
+                    probe_type=self.rng.randrange(4))
         self.m.sleep(self.rng.uniform(0, 0.3))
         self.m.set("motion.feed-hold", 1)
         self.m.sleep(self.rng.uniform(0, 0.1))
@@ -74,7 +75,8 @@ class Odd(Sequence):
         self.m.send(km.TELEOP)
         self.m.sleep(0.3)
         for letter in self.m.axes:
-            self.m.send(km.JOG_INCR, joint=-1, axis="xyzabcuvw".index(letter), vel=self.rng.choice([-50.0, 20.0, 50.0]), offset=self.rng.choice([3, 30]))
+            self.m.send(km.JOG_INCR, joint=-1, axis="xyzabcuvw".index(letter), vel=self.rng.choice([-50.0, 20.0, 50.0]),
+                        offset=self.rng.choice([3, 30]))
         self.m.sleep(self.rng.uniform(0, 1))
 
 
@@ -84,4 +86,5 @@ if len(sys.argv) > 1:
     check(("xyz", "gantry", "delta", "five"), range(first, last + 1), Odd, weights, ratios=(0.0,))
 else:
     check(("xyz", "gantry", "delta"), range(2), Odd, weights, ratios=(0.0,))
-    check(("five",), range(4, 17), Odd, weights, jerks=(0.0,), ratios=(0.0,))  # the last one turns its joints round at a limit
+    # the last one turns its joints round at a limit
+    check(("five",), range(4, 17), Odd, weights, jerks=(0.0,), ratios=(0.0,))

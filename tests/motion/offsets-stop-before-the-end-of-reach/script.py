@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""External offsets of a linear delta towards the end of the arms' reach, where a joint moves without bound for a step of the
-tool: they stop before it within the joints' limits, come back, and start there again."""
+"""External offsets of a linear delta towards the end of the arms' reach, where a joint moves without bound for a step
+of the tool: they stop before it within the joints' limits, come back, and start there again."""
 import kerf_motion as km
 from fuzz import machine
 
@@ -18,6 +18,6 @@ for letter, x, y in (("y", 0, -100), ("x", 90, -20), ("y", 0, -138.2), ("y", 0, 
             m.set(f"axis.{letter}.eoffset-counts", counts)
             m.sleep(25)
             way = max(way, abs(m.get(f"axis.{letter}.eoffset")))
-        print(letter, x, y, f"jerk {jerk:g}", "beyond:", m.violations(), "moved:", way > 1, "stopped before:", way < 59.9,
-              "came back:", abs(m.get(f"axis.{letter}.eoffset")) < 1e-6)
+        print(letter, x, y, f"jerk {jerk:g}", "beyond:", m.violations(), "moved:", way > 1,
+              "stopped before:", way < 59.9, "came back:", abs(m.get(f"axis.{letter}.eoffset")) < 1e-6)
         m.close()

@@ -88,8 +88,8 @@ for backlash in (0.0, 0.02):
     m.sleep(0.2)
     begin, slowest, moving = m.now(), 1e9, 0
     for turn in range(4):  # circles in the plane of a joint with backlash and one without
-        m.send(km.SET_CIRCLE, pos=[0] * 9, center=[0, -20, 0], normal=[1, 0, 0], id=turn, vel=25, ini_maxvel=25, acc=ACC, ini_maxjerk=1e9,
-               motion_type=3, turn=0)
+        m.send(km.SET_CIRCLE, pos=[0] * 9, center=[0, -20, 0], normal=[1, 0, 0], id=turn, vel=25, ini_maxvel=25,
+               acc=ACC, ini_maxjerk=1e9, motion_type=3, turn=0)
     while not m.status()["inpos"]:
         m.sleep(0.001)
         if 0.5 < m.now() - begin < 19:
@@ -105,15 +105,18 @@ m.close()
 m = Machine(joints=9, kins="trivkins coordinates=xyzabcuvw", axes="xyzabcuvw", home=False)
 for joint, (text, kind, printed, told) in enumerate((
         ("0 0 0\n1 1\n2 2 2\n", 0, ["FILE:2: three numbers expected: the 1 points before this line are used"], []),
-        ("# table\n0 0 0\n", 0, ["FILE:1: three numbers expected: the 0 points before this line are used", "FILE: no compensation points"], []),
+        ("# table\n0 0 0\n", 0, ["FILE:1: three numbers expected: the 0 points before this line are used",
+                                 "FILE: no compensation points"], []),
         ("0 0 0\n1 nan 1\n", 0, ["FILE:2: a value is no number: the 1 points before this line are used"], []),
         ("0 0 0\n1 1,5 1\n", 0, ["FILE:2: three numbers expected: the 1 points before this line are used"], []),
         ("0 0 0\n0 0.5 0\n1 1 1\n", 0, ["FILE:2: position 0 is not above 0 of the point before: point not used"],
          ["joint 4: compensation values must increase"]),
-        ("0 0 0\n10 10 10\n", 1, ["FILE:2: the correction changes by more than half of the travel since the point before: "
+        ("0 0 0\n10 10 10\n", 1, ["FILE:2: the correction changes by more than half of the travel since "
+                                  "the point before: "
                                  "is COMP_FILE_TYPE 1 right?"], []),
         ("", 0, ["FILE: no compensation points"], []),
-        ("".join(f"{n} 0 0\n" for n in range(300)), 1, ["FILE:257: more than 256 points"], ["joint 7: too many compensation entries"]))):
+        ("".join(f"{n} 0 0\n" for n in range(300)), 1, ["FILE:257: more than 256 points"],
+         ["joint 7: too many compensation entries"]))):
     eq(load(joint, text, kind), printed, f"messages of {text[:40]!r}")
     eq(m.errors(), told, f"operator's messages of {text[:40]!r}")
 print("files are checked")

@@ -1,5 +1,6 @@
 # Outputs of spindles by speed, limits, override, brake, orientation and constant surface speed; feeds that
-# wait for the speed after a start, another speed and a stop, and rapids that do not (FP-023, FP-027), with eight spindles.
+# wait for the speed after a start, another speed and a stop, and rapids that do not (FP-023,
+# FP-027), with eight spindles.
 import os
 import tempfile
 
@@ -12,7 +13,8 @@ os.environ["MOTION_BENCH_LOG"] = log.name
 m = Machine(vel=200.0, acc=5000.0, motmod=f"num_spindles={SPINDLES}")
 m.send(km.SET_NUM_SPINDLES, spindle=SPINDLES)
 for n in range(SPINDLES):
-    m.send(km.SET_SPINDLE_PARAMS, spindle=n, maxLimit=6000, minLimit=-5000, min_pos_speed=20, max_neg_speed=-30, offset=100)
+    m.send(km.SET_SPINDLE_PARAMS, spindle=n, maxLimit=6000, minLimit=-5000, min_pos_speed=20,
+           max_neg_speed=-30, offset=100)
 
 
 def order(rpm, n=0, wait=0, state=1, css=0.0, offset=0.0):
@@ -23,8 +25,9 @@ def order(rpm, n=0, wait=0, state=1, css=0.0, offset=0.0):
 
 def shown(rpm, n=0, on=True, brake=False, what=""):
     p = f"spindle.{n}."
-    eq([round(m.get(p + "speed-out"), 6), round(m.get(p + "speed-out-abs"), 6), round(m.get(p + "speed-out-rps") * 60, 6),
-        round(m.get(p + "speed-out-rps-abs") * 60, 6), m.get(p + "forward"), m.get(p + "reverse"), m.get(p + "on"), m.get(p + "brake")],
+    eq([round(m.get(p + "speed-out"), 6), round(m.get(p + "speed-out-abs"), 6),
+        round(m.get(p + "speed-out-rps") * 60, 6), round(m.get(p + "speed-out-rps-abs") * 60, 6), m.get(p + "forward"),
+        m.get(p + "reverse"), m.get(p + "on"), m.get(p + "brake")],
        [rpm, abs(rpm), rpm, abs(rpm), rpm > 0, rpm < 0, on, brake], what or f"outputs of spindle {n}")
 
 
@@ -59,7 +62,8 @@ m.send(km.SPINDLE_SCALE, spindle=0, scale=1.0)
 
 # ---- steps of the increment, brake
 order(-150)
-for code, given in ((km.SPINDLE_INCREASE, -250), (km.SPINDLE_DECREASE, -150), (km.SPINDLE_DECREASE, -50), (km.SPINDLE_DECREASE, -50)):
+for code, given in ((km.SPINDLE_INCREASE, -250), (km.SPINDLE_DECREASE, -150), (km.SPINDLE_DECREASE, -50),
+                    (km.SPINDLE_DECREASE, -50)):
     m.send(code, spindle=0)
     m.sleep(0.003)
     shown(given, what="increase and decrease")
@@ -113,7 +117,8 @@ m.send(km.SPINDLE_ORIENT, spindle=0, orientation=0, mode=0)
 m.sleep(0.003)
 m.set("spindle.0.orient-fault", 17)
 m.sleep(0.003)
-eq((orientation()[0], orientation()[6], m.status()["error"], m.errors()), (False, 3, True, ["fault 17 during orient in progress"]),
+eq((orientation()[0], orientation()[6], m.status()["error"], m.errors()),
+   (False, 3, True, ["fault 17 during orient in progress"]),
    "fault of the orientation")
 m.set("spindle.0.orient-fault", 0)
 m.send(km.ABORT)
@@ -186,7 +191,8 @@ m.line(m.get("joint.0.pos-cmd"), 20, 0, vel=200, id=77)
 m.sleep(9.9)
 eq(m.errors(), [], "FP-027: nothing is told of a spindle that gets to its speed in time")
 m.sleep(5)
-eq(m.errors(), [f"line 77 waits for spindle.{n}.at-speed since 10 s: {rpm} rpm are commanded, {real} measured\n" for n, rpm, real in ((2, 700, 90), (7, 400, 0))],
+eq(m.errors(), [f"line 77 waits for spindle.{n}.at-speed since 10 s: {rpm} rpm are commanded, {real} measured\n"
+                for n, rpm, real in ((2, 700, 90), (7, 400, 0))],
    "FP-027: a wait that does not end is told once, with each spindle that is not at its speed")
 for n in (2, 7):
     eq(m.get("joint.1.pos-cmd"), start, f"FP-027: the move begins before spindle {n} is at its speed")
@@ -213,12 +219,14 @@ m.sleep(0.1)
 m.errors()
 m.send(km.ABORT)
 m.rest()
-eq(m.errors(), ["Aborted while waiting for spindle 0 at-speed after a spindle stop. Check that spindle.0.at-speed is connected and "
+eq(m.errors(), ["Aborted while waiting for spindle 0 at-speed after a spindle stop. Check that spindle.0.at-speed "
+                "is connected and "
                 "goes true once the spindle has stopped."], "abort of a wait")
 m.line(40, 0, 0, vel=200)
 m.rest()
 eq(round(m.get("joint.0.pos-cmd"), 9), 40.0, "after an abort nothing waits")
 m.close()
-eq([x.strip() for x in open(log.name) if "motion: line 77 waits" in x], [f"motion: line 77 waits for spindle.{n}.at-speed" for n in (2, 7)],
+eq([x.strip() for x in open(log.name) if "motion: line 77 waits" in x],
+   [f"motion: line 77 waits for spindle.{n}.at-speed" for n in (2, 7)],
    "FP-027: the log names each spindle of a wait")
 print(f"{eq.checks} checks")

@@ -3,7 +3,8 @@
 import sys
 import xml.etree.ElementTree as ET
 
-SHOWN = {"Joint", "Axis", "Kinematics", "Motion", "SolidModel", "Specification", "Maximum", "Minimum", "Sensor", "Device", "Agent"}
+SHOWN = {"Joint", "Axis", "Kinematics", "Motion", "SolidModel", "Specification", "Maximum", "Minimum", "Sensor",
+         "Device", "Agent"}
 ITEMS = {"t1", "t2", "t3", "t4", "pos_x", "pos_a", "pathfeed", "feedovr", "xyrotation"}
 for element in ET.parse(sys.argv[1]).getroot().iter():
     tag = element.tag.rsplit("}", 1)[-1]

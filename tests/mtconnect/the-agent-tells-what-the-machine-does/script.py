@@ -67,7 +67,8 @@ def values(text):
     found = {}
     for element in ET.fromstring(text).iter():
         if "dataItemId" in element.attrib:
-            found[element.get("dataItemId")] = {e.get("key"): {c.get("key"): c.text for c in e} for e in element} if len(element) else element.text
+            found[element.get("dataItemId")] = ({e.get("key"): {c.get("key"): c.text for c in e} for e in element}
+                                                if len(element) else element.text)
     return found
 
 
@@ -101,19 +102,27 @@ class Shdr:
 
 print("== documents")
 get("/current")
-show("off", "avail", "estop", "mode", "execution", "program", "toolnum", "toolasset", "workoffset", "tooloffset", "absent", "door", "agent_avail", "assetrm")
-for page in ("/", "/probe/", "/current", "/sample", "/assets", "/schemas/mtconnect-linuxcnc-1.xsd", "/mtconnect-linuxcnc-1.xsd", "/nothing", "/models/x.stl", "/models/..%2fagent.ini",
+show("off", "avail", "estop", "mode", "execution", "program", "toolnum", "toolasset", "workoffset", "tooloffset",
+     "absent", "door", "agent_avail", "assetrm")
+for page in ("/", "/probe/", "/current", "/sample", "/assets", "/schemas/mtconnect-linuxcnc-1.xsd",
+             "/mtconnect-linuxcnc-1.xsd", "/nothing", "/models/x.stl", "/models/..%2fagent.ini",
              "/sample?from=0", "/sample?from=99999", "/sample?from=x", "/sample?count=0"):
     status, kind, text = get(page)
     root = ET.fromstring(text)
     error = [e.get("errorCode") for e in root.iter() if local(e.tag) == "Error"]
     print(page, status, kind, local(root.tag), *error)
 head = ET.fromstring(get("/current")[2])[0].attrib
-print({k: head[k] for k in ("sender", "version", "bufferSize", "assetBufferSize", "firstSequence")}, int(head["nextSequence"]) == int(head["lastSequence"]) + 1,
+print({k: head[k] for k in ("sender", "version", "bufferSize", "assetBufferSize", "firstSequence")},
+      int(head["nextSequence"]) == int(head["lastSequence"]) + 1,
       re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z", head["creationTime"]) is not None)
-components = [(local(e.tag), e.get("id")) for e in ET.fromstring(get("/probe")[2]).iter() if e.get("id") and local(e.tag) not in ("DataItem", "Specification", "Motion", "CoordinateSystem")]
+components = [(local(e.tag), e.get("id"))
+              for e in ET.fromstring(get("/probe")[2]).iter()
+              if e.get("id") and local(e.tag) not in ("DataItem", "Specification", "Motion", "CoordinateSystem")]
 print(components)
-print("assets:", [(t.get("assetId"), {local(e.tag): (e.text or "").strip() or e.attrib for e in t.iter() if local(e.tag) in ("Status", "Location", "CuttingDiameter", "FunctionalLength", "Description")})
+print("assets:", [(t.get("assetId"),
+                   {local(e.tag): (e.text or "").strip() or e.attrib
+                    for e in t.iter() if local(e.tag) in ("Status", "Location", "CuttingDiameter", "FunctionalLength",
+                                                          "Description")})
                   for t in ET.fromstring(get("/assets")[2])[1]][:1])
 
 print("== lines")
@@ -135,7 +144,8 @@ mdi("T1 M6 G43")
 mdi("S1000 M4")
 mdi("M8")
 c.spindleoverride(0.5)
-show("on", "estop", "mode", "execution", "pos_x", "poscmd_y", "workoffset", "toolnum", "toolasset", "assetchg", "tooloffset", "spdl_speed", "spdl_speed_cmd", "spdl_dir", "coolant_flood",
+show("on", "estop", "mode", "execution", "pos_x", "poscmd_y", "workoffset", "toolnum", "toolasset", "assetchg",
+     "tooloffset", "spdl_speed", "spdl_speed_cmd", "spdl_dir", "coolant_flood",
      "coolant_mist", "xyrotation", "feedovr", "out")
 print(client.until("coolant_flood", "ON"))
 seen = ET.fromstring(get(f"/sample?from={start}&count=5")[2])
@@ -154,7 +164,8 @@ show("paused", "execution")
 c.abort()
 
 print("== messages")
-clock.wait_until(lambda: any("Sample" in t for _, t, _ in broker.published()) and getp("mtconnect-agent.connected") == "TRUE", 600, 0.05)
+clock.wait_until(lambda: any("Sample" in t for _, t, _ in broker.published())
+                 and getp("mtconnect-agent.connected") == "TRUE", 600, 0.05)
 topics = {}
 for kind, topic, text in broker.published():
     topics.setdefault(topic, (kind, local(ET.fromstring(text).tag)))
@@ -179,10 +190,15 @@ print("ends with", away(lambda: agent.wait(20)))
 print("== a port that is taken, and the INI file of the environment")
 clock.wait_until(lambda: "mtconnect-agent" not in halcmd("list", "comp").split(), 10)
 taken = socket.create_server(("127.0.0.1", http))
-agent = clock.spawn(["mtconnect-agent", "--port", str(http)], "mtconnect-agent", 500, env=dict(os.environ, INI_FILE_NAME="agent.ini"), stderr=open("told", "w"))
-clock.wait_until(lambda: "mtconnect-agent" in halcmd("list", "comp").split() and getp("mtconnect-agent.heartbeat") not in ("", "0"), 10)
+agent = clock.spawn(["mtconnect-agent", "--port", str(http)], "mtconnect-agent", 500,
+                    env=dict(os.environ, INI_FILE_NAME="agent.ini"), stderr=open("told", "w"))
+clock.wait_until(lambda: "mtconnect-agent" in halcmd("list", "comp").split()
+                 and getp("mtconnect-agent.heartbeat") not in ("", "0"), 10)
 print("works on:", getp("mtconnect-agent.active"), Path("told").read_text().replace(str(http), "PORT").strip())
-second = away(lambda: subprocess.run(["mtconnect-agent", "agent.ini", "--port", str(http)], stderr=subprocess.PIPE, text=True, timeout=30, env={k: v for k, v in os.environ.items() if not k.startswith("KERF_CLOCK")}))
+second = away(lambda: subprocess.run(["mtconnect-agent", "agent.ini", "--port", str(http)], stderr=subprocess.PIPE,
+                                     text=True, timeout=30, env={k: v
+                                                                 for k, v in os.environ.items()
+                                                                 if not k.startswith("KERF_CLOCK")}))
 print("beside it:", second.returncode, second.stderr.replace(str(http), "PORT").replace(str(shdr), "SHDR").strip())
 agent.terminate()
 away(lambda: agent.wait(20))

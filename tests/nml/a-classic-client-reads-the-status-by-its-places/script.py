@@ -41,17 +41,25 @@ class Decoder:
         return got
 
 
-TASK = ("taskbeat:Q task_mode:i task_state:i exec_state:i interp_state:i call_level:i motion_line:i current_line:i read_line:i optional_stop:i block_delete:i"
-        " input_timeout:i file:text command:text ini_filename:text g5x_offset:d*9 g5x_index:i g92_offset:d*9 rotation_xy:d tool_offset:d*9 gcodes:i*17 mcodes:i*10"
+TASK = ("taskbeat:Q task_mode:i task_state:i exec_state:i interp_state:i call_level:i motion_line:i current_line:i "
+        "read_line:i optional_stop:i block_delete:i"
+        " input_timeout:i file:text command:text ini_filename:text g5x_offset:d*9 g5x_index:i g92_offset:d*9 "
+        "rotation_xy:d tool_offset:d*9 gcodes:i*17 mcodes:i*10"
         " settings:d*5 program_units:i interpreter_errcode:i task_paused:i delay_left:d queued_mdi_commands:i")
-TRAJ = ("linear_units:d angular_units:d cycle_time:d joints:i spindles:i axis_mask:i motion_mode:i enabled:i inpos:i queue:i active_queue:i queue_full:i motion_id:i"
-        " paused:i single_stepping:i feedrate:d rapidrate:d position:d*9 actual_position:d*9 velocity:d acceleration:d max_velocity:d max_acceleration:d"
-        " probed_position:d*9 probe_tripped:i probing:i probe_val:i kinematics_type:i motion_type:i distance_to_go:d dtg:d*9 current_vel:d"
+TRAJ = ("linear_units:d angular_units:d cycle_time:d joints:i spindles:i axis_mask:i motion_mode:i enabled:i inpos:i "
+        "queue:i active_queue:i queue_full:i motion_id:i"
+        " paused:i single_stepping:i feedrate:d rapidrate:d position:d*9 actual_position:d*9 velocity:d "
+        "acceleration:d max_velocity:d max_acceleration:d"
+        " probed_position:d*9 probe_tripped:i probing:i probe_val:i kinematics_type:i motion_type:i distance_to_go:d "
+        "dtg:d*9 current_vel:d"
         " feed_override_enabled:i adaptive_feed_enabled:i feed_hold_enabled:i")
-JOINT = ("number:i jointType:i units:d backlash:d min_position_limit:d max_position_limit:d max_ferror:d min_ferror:d ferror_current:d ferror_highmark:d output:d input:d"
-         " velocity:d inpos:i homing:i homed:i fault:i enabled:i min_soft_limit:i max_soft_limit:i min_hard_limit:i max_hard_limit:i override_limits:i")
+JOINT = ("number:i jointType:i units:d backlash:d min_position_limit:d max_position_limit:d max_ferror:d min_ferror:d "
+         "ferror_current:d ferror_highmark:d output:d input:d"
+         " velocity:d inpos:i homing:i homed:i fault:i enabled:i min_soft_limit:i max_soft_limit:i min_hard_limit:i "
+         "max_hard_limit:i override_limits:i")
 AXIS = "number:i min_position_limit:d max_position_limit:d velocity:d"
-SPINDLE = ("speed:d override:d css_maximum:d css_factor:d state:i direction:i brake:i increasing:i enabled:i orient_state:i orient_fault:i override_enabled:i homed:i")
+SPINDLE = ("speed:d override:d css_maximum:d css_factor:d state:i direction:i brake:i increasing:i enabled:i "
+           "orient_state:i orient_fault:i override_enabled:i homed:i")
 OWN = {"number", "css_maximum", "css_factor", "state", "increasing"}
 
 
@@ -75,14 +83,16 @@ def status():
         wrong += compare(d.struct(AXIS), s.axis[n])
     for n in range(8):
         wrong += compare(d.struct(SPINDLE), s.spindle[n])
-    rest = {"din": d.take("i", 64), "dout": d.take("i", 64), "ain": d.take("d", 64), "aout": d.take("d", 64), "misc_error": d.take("i", 64)}
+    rest = {"din": d.take("i", 64), "dout": d.take("i", 64), "ain": d.take("d", 64), "aout": d.take("d", 64),
+            "misc_error": d.take("i", 64)}
     d.take("i", 3)
     d.take("d", 9)
     rest |= {"num_extrajoints": d.take("i"), "jogging": d.take("i"), "heartbeat": d.take("Q")}
     jogging = rest.pop("jogging")
     d.take("i", 4)
     d.take("i", 3)
-    rest |= d.struct("pocket_prepped:i tool_in_spindle:i tool_from_pocket:i") | d.struct("mist:i flood:i") | d.struct("estop:i")
+    rest |= (d.struct("pocket_prepped:i tool_in_spindle:i tool_from_pocket:i") | d.struct("mist:i flood:i")
+             | d.struct("estop:i"))
     rest["debug"] = d.take("i")
     wrong += compare(rest, {n: getattr(s, n) for n in rest})
     return kind, wrong, d.at <= len(data), jogging

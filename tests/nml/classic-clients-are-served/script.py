@@ -11,7 +11,8 @@ class Classic(Client):
 
     def request(self, *args, **named):
         got = super().request(*args, **named)
-        return got if got is None or struct.unpack(">I", got[:4])[0] == self.serial + 1 else f"numbered {got[:4]} for {self.serial}".encode()
+        return (got if got is None or struct.unpack(">I", got[:4])[0] == self.serial + 1
+                else f"numbered {got[:4]} for {self.serial}".encode())
 
 
 def text(value, room):
@@ -30,12 +31,14 @@ print(c.request(NAME, COMMAND, reply=40)[8:].rstrip(b"\0"), c.number(LENGTH, COM
 print("MDI:", status(c, 509, 280, text(b"G0 X1", 255)))
 print("MDI without an end:", status(Classic(), 509, 280, text(b"x" * 255, 255)))
 piece = bytes(range(256)) * 16
-print("a piece of a program:", status(c, 506, 4400, text(b"/tmp/far.ngc", 255) + struct.pack(">QQ", 10000, 4096) + text(piece, 4096)))
+print("a piece of a program:",
+      status(c, 506, 4400, text(b"/tmp/far.ngc", 255) + struct.pack(">QQ", 10000, 4096) + text(piece, 4096)))
 sent = []
 for _ in range(2):
     got = c.read(COMMAND)
     sent.append(got[2])
 print("comes back:", sent[0][16:26], len(sent[0]) - 16, sent[1][-4096:] == piece)
 other = Client()
-print("others:", other.number(LENGTH, COMMAND), struct.unpack(">I", other.request(NAME, STATUS, reply=40)[:4])[0] == other.serial)
+print("others:", other.number(LENGTH, COMMAND),
+      struct.unpack(">I", other.request(NAME, STATUS, reply=40)[:4])[0] == other.serial)
 server.stop()

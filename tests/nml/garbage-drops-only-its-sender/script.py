@@ -8,10 +8,12 @@ from wire import *
 server = Server()
 good = Client()
 print("name:", good.request(NAME, COMMAND, reply=40)[8:].rstrip(b"\0"))
-print("write:", good.write(COMMAND, NULL), good.write(COMMAND, NULL), "length", good.number(LENGTH, COMMAND), "count", good.number(COUNT, COMMAND))
+print("write:", good.write(COMMAND, NULL), good.write(COMMAND, NULL), "length", good.number(LENGTH, COMMAND), "count",
+      good.number(COUNT, COMMAND))
 print("read:", good.read(COMMAND)[:2], good.read(COMMAND)[:2], good.read(COMMAND))
 print("status before a writer:", good.read(STATUS, 3))
-print("check_if_read:", good.number(CHECK, COMMAND), "clear:", struct.unpack(">Ii", good.request(CLEAR, ERROR, reply=8))[1], "space:", good.number(SPACE, ERROR)[0])
+print("check_if_read:", good.number(CHECK, COMMAND), "clear:",
+      struct.unpack(">Ii", good.request(CLEAR, ERROR, reply=8))[1], "space:", good.number(SPACE, ERROR)[0])
 print("no such buffer:", struct.unpack(">Iiiii", good.request(READ, 77, 1, 0, reply=20))[1])
 late = struct.unpack(">Iiiii", good.request(BLOCKING, COMMAND, 1, 0, struct.pack(">i", 50), 20))
 print("blocking read, timed out:", late[1:3])
@@ -22,11 +24,15 @@ def later():
 
 
 threading.Timer(0.05, later).start()
-print("blocking read, message comes:", struct.unpack(">Iiiii", good.request(BLOCKING, COMMAND, 1, 0, struct.pack(">i", 20000), 20))[1:4:2], len(good.take(16)))
+print("blocking read, message comes:",
+      struct.unpack(">Iiiii", good.request(BLOCKING, COMMAND, 1, 0, struct.pack(">i", 20000), 20))[1:4:2],
+      len(good.take(16)))
 
 print("== what drops its sender")
-for what, kind, extra in (("unknown request", 99, b""), ("request 0", 0, b""), ("a message that is none", WRITE, b"\xff" * 20), ("a message cut short", WRITE, NULL[:9]),
-                          ("an unknown message", WRITE, struct.pack(">iqi", 4711, 24, 0)), ("a text too long", WRITE, struct.pack(">iqiI", 509, 300, 0, 70000) + b"G" * 200)):
+for what, kind, extra in (("unknown request", 99, b""), ("request 0", 0, b""),
+                          ("a message that is none", WRITE, b"\xff" * 20), ("a message cut short", WRITE, NULL[:9]),
+                          ("an unknown message", WRITE, struct.pack(">iqi", 4711, 24, 0)),
+                          ("a text too long", WRITE, struct.pack(">iqiI", 509, 300, 0, 70000) + b"G" * 200)):
     c = Client()
     c.request(kind, COMMAND, 4, len(extra), extra)
     print(what, c.dropped(), server.wait_log("dropped"))
@@ -48,7 +54,8 @@ for n in range(300):
                 extra = bytearray(NULL + dice.randbytes(dice.randrange(0, 300)))
                 for _ in range(3):
                     extra[dice.randrange(len(extra))] = dice.randrange(256)
-                noise.socket.sendall(struct.pack(">5I", dice.randrange(1 << 32), dice.randrange(1, 19), dice.randrange(0, 5), dice.randrange(0, 12), len(extra)) + extra)
+                noise.socket.sendall(struct.pack(">5I", dice.randrange(1 << 32), dice.randrange(1, 19),
+                                                 dice.randrange(0, 5), dice.randrange(0, 12), len(extra)) + extra)
         else:  # half a request, then gone
             noise.socket.sendall(struct.pack(">5I", 1, WRITE, COMMAND, 4, 4000)[:dice.randrange(1, 20)])
         if n % 2:
@@ -87,7 +94,8 @@ while len(read) < COUNT_EACH * CLIENTS:
         read.append(struct.unpack(">iqi", got[2])[2])
 for t in threads:
     t.join()
-print(len(read), read == sorted(read), sorted(read) == sorted(n for mine in serials for n in mine), all(mine == sorted(mine) for mine in serials))
+print(len(read), read == sorted(read), sorted(read) == sorted(n for mine in serials for n in mine),
+      all(mine == sorted(mine) for mine in serials))
 print("too many connections:", server.alive())
 crowd = [socket.create_connection(("127.0.0.1", port())) for _ in range(210)]
 print(server.wait_log("one connection too many"), good.number(COUNT, COMMAND) is not None)
@@ -96,7 +104,8 @@ for s in crowd:
 server.stop()
 
 print("== where the log goes")
-for what, ini, lines in (("two errors at most", "RCS_MAX_ERR = 2", 2), ("nowhere", "RCS_DEBUG_DEST = NULL", 0), ("no errors", "RCS_DEBUG = 0x100", 0), ("standard error", "RCS_DEBUG_DEST = stderr", 4)):
+for what, ini, lines in (("two errors at most", "RCS_MAX_ERR = 2", 2), ("nowhere", "RCS_DEBUG_DEST = NULL", 0),
+                         ("no errors", "RCS_DEBUG = 0x100", 0), ("standard error", "RCS_DEBUG_DEST = stderr", 4)):
     server = Server("", ini)
     for n in range(4):
         c = Client()

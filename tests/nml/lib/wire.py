@@ -22,13 +22,16 @@ class Server:
     """linuxcncsvr with buffer options `extra` and INI lines `ini`; its output is in svr.log."""
     def __init__(self, extra="", ini="", process="LOCAL localhost"):
         lines = [f"B emcCommand SHMEM localhost 8192 0 0 1 16 1001 TCP=5005 xdr queue confirm_write serial {extra}",
-                 f"B emcStatus SHMEM localhost 20480 0 0 2 16 1002 TCP=5005 xdr {extra}", f"B emcError SHMEM localhost 8192 0 0 3 16 1003 TCP=5005 xdr queue {extra}"]
-        for who, kind, server in (("emc", "LOCAL localhost", "0 1.0 0 0"), ("emcsvr", "LOCAL localhost", "1 1.0 1 2"), ("xemc", process, "0 10.0 0 10")):
+                 f"B emcStatus SHMEM localhost 20480 0 0 2 16 1002 TCP=5005 xdr {extra}",
+                 f"B emcError SHMEM localhost 8192 0 0 3 16 1003 TCP=5005 xdr queue {extra}"]
+        for who, kind, server in (("emc", "LOCAL localhost", "0 1.0 0 0"), ("emcsvr", "LOCAL localhost", "1 1.0 1 2"),
+                                  ("xemc", process, "0 10.0 0 10")):
             lines.append(f"P {who} default {kind} RW {server}")
         Path("test.nml").write_text("\n".join(lines) + "\n")
         Path("test.ini").write_text(f"[EMC]\nNML_FILE = {Path('test.nml').resolve()}\n{ini}\n")
         with open("svr.log", "w") as log:
-            self.status = subprocess.run(["linuxcncsvr", "-ini", "test.ini"], stdout=log, stderr=log, stdin=subprocess.DEVNULL).returncode
+            self.status = subprocess.run(["linuxcncsvr", "-ini", "test.ini"], stdout=log, stderr=log,
+                                         stdin=subprocess.DEVNULL).returncode
         self.pid = None
         for _ in range(200):  # it goes into the background by way of two short-lived processes
             before, self.pid = self.pid, self.find()
@@ -41,7 +44,8 @@ class Server:
         """The process that has our folder and that name."""
         for p in Path("/proc").iterdir():
             try:
-                if p.name.isdigit() and (p / "comm").read_text() == "linuxcncsvr\n" and os.readlink(p / "cwd") == os.getcwd():
+                if (p.name.isdigit() and (p / "comm").read_text() == "linuxcncsvr\n"
+                        and os.readlink(p / "cwd") == os.getcwd()):
                     return int(p.name)
             except OSError:
                 pass

@@ -25,7 +25,8 @@ print("the right one:", good, c.write(COMMAND, NULL)[1])
 print("good for its buffer only:", c.read(STATUS))
 c = Client()
 print("another name:", login(c, "ben", "tractor")[2], c.write(COMMAND, NULL)[1])
-for what, name, password in (("a wrong password", "anna", "wrong"), ("somebody else's", "anna", "tractor"), ("nobody", "carl", "tractor"), ("empty", "", "")):
+for what, name, password in (("a wrong password", "anna", "wrong"), ("somebody else's", "anna", "tractor"),
+                             ("nobody", "carl", "tractor"), ("empty", "", "")):
     c = Client()
     print(what, login(c, name, password)[2], c.write(COMMAND, NULL))
 c = Client()
@@ -35,7 +36,8 @@ c = Client()
 print("without a challenge:", login(c, "anna", "correct-horse", challenge=b"\0" * 16)[2])
 c = Client()
 same, _, _ = login(c, "anna", "wrong")
-print("a second try with the same challenge:", login(c, "anna", "correct-horse", challenge=same)[2], "challenges differ:", same != keys)
+print("a second try with the same challenge:", login(c, "anna", "correct-horse", challenge=same)[2],
+      "challenges differ:", same != keys)
 print("log:", server.log().count("refused") >= 6, "without a login" in server.log(), "tractor" in server.log())
 
 linuxcnc.nmlfile = str(Path("test.nml").resolve())
@@ -58,7 +60,8 @@ server.stop()
 
 print("== addresses")
 Path("logins").write_text("anna correct-horse\n")
-for what, extra, bind in (("all, without a password", "", "*"), ("no address", "passwd=logins", "nowhere"), ("all, with a password", "passwd=logins", "*")):
+for what, extra, bind in (("all, without a password", "", "*"), ("no address", "passwd=logins", "nowhere"),
+                          ("all, with a password", "passwd=logins", "*")):
     server = Server(extra, f"NML_BIND = {bind}")
     text = "other computers need a password" if not extra else "is no address" if bind == "nowhere" else ""
     open_ = False

@@ -18,7 +18,8 @@ def news(client, buffer_message=NULL):
 
 server = Server("diag")
 writer, reader = Client(), Client()
-print("asked for:", answer(reader, SUBSCRIBE, COMMAND, VARIABLE), "unknown kind:", answer(Client(), SUBSCRIBE, COMMAND, 7))
+print("asked for:", answer(reader, SUBSCRIBE, COMMAND, VARIABLE), "unknown kind:",
+      answer(Client(), SUBSCRIBE, COMMAND, 7))
 mine = reader.serial
 for n in range(3):
     writer.write(COMMAND, NULL)
@@ -51,7 +52,8 @@ print("after its death:", reader.number(COUNT, COMMAND) is not None)
 head = writer.request(DIAGNOSE, COMMAND, reply=12)
 serial, status, count = struct.unpack(">Iii", head)
 cnum, name, pid, reads, read_bytes, writes, write_bytes, last = struct.unpack(">i16siqqqqq", writer.take(64))
-print("diagnostics:", status, count, cnum, name.rstrip(b"\0"), pid == server.pid, reads > 3, read_bytes == 24 * reads, writes, write_bytes == 24 * writes, last > 0)
+print("diagnostics:", status, count, cnum, name.rstrip(b"\0"), pid == server.pid, reads > 3, read_bytes == 24 * reads,
+      writes, write_bytes == 24 * writes, last > 0)
 server.stop()
 print("without the option:", end=" ")
 server = Server()

@@ -47,7 +47,8 @@ for name, number, what in (("Ctrl-C", signal.SIGINT, KeyboardInterrupt), ("handl
     try:
         print(name, c.wait_complete(900000))
     except what as ended:
-        print(f"{name} ends the wait: {type(ended).__name__}; the others polled meanwhile:", all(a > b for a, b in zip(counts, before)))
+        print(f"{name} ends the wait: {type(ended).__name__}; the others polled meanwhile:",
+              all(a > b for a, b in zip(counts, before)))
     killer.join()
     c.abort()
     print("and goes on:", c.wait_complete(), mdi("G0 X1"), poll().position[0])

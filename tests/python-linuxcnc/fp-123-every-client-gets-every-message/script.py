@@ -27,7 +27,8 @@ c.wait_complete()
 print("who and why:", [(m["text"], m["source"], m["command"] == failed) for m in a.poll()])
 print("time:", 0 < (m := b.poll())[-1]["time"] <= clock.now(), [x["time"] for x in m] == sorted(x["time"] for x in m))
 print("one that comes later:", [m["text"] for m in module.message_log().poll()][:3])
-other = clock.run([sys.executable, "-c", "import linuxcnc; print(len(linuxcnc.message_log().poll()))"], stdout=subprocess.PIPE, text=True).stdout
+other = clock.run([sys.executable, "-c", "import linuxcnc; print(len(linuxcnc.message_log().poll()))"],
+                  stdout=subprocess.PIPE, text=True).stdout
 print("another process:", int(other) == len(module.message_log().poll()))
 messages()
 for n in range(50):

@@ -58,8 +58,11 @@ g.set_jog_increments(0.5, "0.5 mm")
 g.set_jog_increment_angular(15, "15 deg")
 g.set_selected_joint(2)
 g.set_selected_axis("Y")
-print("pins:", [(name, comes(pin(name, value))) for name, value in (("jog-rate-angular", 720), ("jog-increment", 0.5), ("jog-increment-angular", 15), ("joint-selected", 2), ("axis-y-is-selected", True))])
+print("pins:", [(name, comes(pin(name, value)))
+                for name, value in (("jog-rate-angular", 720), ("jog-increment", 0.5), ("jog-increment-angular", 15),
+                                    ("joint-selected", 2), ("axis-y-is-selected", True))])
 hal.set_p("bridge.jog-rate-in", "33")
-print("asked for:", comes(lambda: g.get_jograte() == 33), pressed("ok-in"), pressed("cancel-in"), pressed("cycle-start-in"), pressed("reload-display-in"))
+print("asked for:", comes(lambda: g.get_jograte() == 33), pressed("ok-in"), pressed("cancel-in"),
+      pressed("cycle-start-in"), pressed("reload-display-in"))
 hal.set_p("bridge.axis-z-select", "1")
 print("axis:", comes(lambda: g.get_selected_axis() == "Z"), sorted(set(heard)))

@@ -14,7 +14,8 @@ need(lambda s: s.state == RCS_DONE and s.heartbeat > 0, "a machine that is ready
 g = hal_glib.GStat()
 print("one object:", g is hal_glib.GStat(), g.cycle_time_ms, hal_glib.GStat.WARNING, hal_glib.GStat.TEMPARARY_MESSAGE)
 seen = []
-BORING = {"periodic", "current-feed-rate", "current-x-rel-position", "current-position", "following-error", "actual-spindle-speed-changed", "line-changed"}
+BORING = {"periodic", "current-feed-rate", "current-x-rel-position", "current-position", "following-error",
+          "actual-spindle-speed-changed", "line-changed"}
 
 
 def listen(name):
@@ -43,7 +44,8 @@ def look(what, settle=0.3):
 
 look("the first look")
 look("nothing")
-print(g.machine_is_on(), g.estop_is_clear(), g.is_man_mode(), g.is_all_homed(), g.is_interp_idle(), g.is_metric_mode(), g.check_for_modes(), g.get_jograte())
+print(g.machine_is_on(), g.estop_is_clear(), g.is_man_mode(), g.is_all_homed(), g.is_interp_idle(), g.is_metric_mode(),
+      g.check_for_modes(), g.get_jograte())
 c.state(STATE_ESTOP_RESET)
 look("estop reset")
 c.state(STATE_ON)
@@ -71,7 +73,8 @@ c.spindle(SPINDLE_OFF)
 c.mode(MODE_MDI)
 look("MDI mode")
 print(g.get_current_mode(), g.get_previous_mode(), g.check_for_modes(g.MDI), g.check_for_modes([g.MANUAL, g.AUTO]))
-for line in ("G20 G91 G95 G18 F3", "G21 G90 G94 G17 G55", "G64 P0.1 Q0.2 S700", "G93 G7", "G94 G8 G54", "G96 D1000 S100", "G97"):
+for line in ("G20 G91 G95 G18 F3", "G21 G90 G94 G17 G55", "G64 P0.1 Q0.2 S700", "G93 G7", "G94 G8 G54",
+             "G96 D1000 S100", "G97"):
     mdi(line)
     look(line)
 mdi("T1 M6")
@@ -111,7 +114,8 @@ g.set_selected_axis("y")
 g.request_cycle_start(True)
 g.request_reload_display(None)
 look("board")
-print(g.get_jograte(), g.get_jog_increment(), g.get_selected_joint(), g.get_selected_axis(), g.get_max_velocity(), g.jnum_for_axisnum(2), g.get_jjogmode(), g.get_jog_info(1))
+print(g.get_jograte(), g.get_jog_increment(), g.get_selected_joint(), g.get_selected_axis(), g.get_max_velocity(),
+      g.jnum_for_axisnum(2), g.get_jjogmode(), g.get_jog_info(1))
 c.maxvel(200)
 c.teleop_enable(0)
 sleep(0.1)

@@ -24,8 +24,10 @@ with contextlib.redirect_stdout(said):
     l.jog_axis("y", -3)
     l.jog_axis("X", 2.5, 10)
 print("jogged:", said.getvalue().count("jogg"), 2.5 < poll().position[0] < 3.5, -3.5 < s.position[1] < -3)
-for what, call in (("jog", lambda: l.jog_axis("Z", 5, 0.1, timeout=0.5)), ("stop at", lambda: l.wait_for_axis_to_stop_at("X", 50, timeout=0.5)),
-                   ("tool", lambda: l.wait_for_tool_in_spindle(7, timeout=0.3)), ("interp", lambda: l.wait_for_interp_state(INTERP_PAUSED, timeout=0.3)),
+for what, call in (("jog", lambda: l.jog_axis("Z", 5, 0.1, timeout=0.5)),
+                   ("stop at", lambda: l.wait_for_axis_to_stop_at("X", 50, timeout=0.5)),
+                   ("tool", lambda: l.wait_for_tool_in_spindle(7, timeout=0.3)),
+                   ("interp", lambda: l.wait_for_interp_state(INTERP_PAUSED, timeout=0.3)),
                    ("home", lambda: l.wait_for_home([1, 1, 1, 1], timeout=0.3))):
     with contextlib.redirect_stdout(said):
         try:
@@ -65,7 +67,8 @@ for line, corner in (("G1 F3000 X10", (10, 0)), ("G1 Y10", (10, 10)), ("G0 X0", 
     until(lambda s: (at := p.last(0)) and abs(at[0] - corner[0]) < 1e-3 and abs(at[1] - corner[1]) < 1e-3, 1000)
 path, xyuv = points()
 near = lambda c: any(abs(q[0] - c[0]) < 1 and abs(q[1] - c[1]) < 1 for q in path)
-print("corners:", all(near(c) for c in ((0, 0), (10, 0), (10, 10), (0, 10))), "few:", len(path) < 60, "colors:", sorted({q[3:7] for q in path if q[3:7] in (tuple(colors[1]), tuple(colors[2]))}), xyuv)
+print("corners:", all(near(c) for c in ((0, 0), (10, 0), (10, 10), (0, 10))), "few:", len(path) < 60, "colors:",
+      sorted({q[3:7] for q in path if q[3:7] in (tuple(colors[1]), tuple(colors[2]))}), xyuv)
 print("last drawn:", [round(v, 3) + 0.0 for v in p.last()], "logged:", [round(v, 3) + 0.0 for v in p.last(0)])
 p.clear()
 until(lambda s: p.npts == 2, 10)
@@ -77,7 +80,8 @@ clock.suspend()  # the thread ends with its present wait
 thread.join(20)
 clock.resume()
 print("stopped:", not thread.is_alive())
-for bad in (lambda: module.positionlogger(s, *colors[:5], "XYZ"), lambda: module.positionlogger(s, *colors[:5], (1, 2), "XYZ")):
+for bad in (lambda: module.positionlogger(s, *colors[:5], "XYZ"),
+            lambda: module.positionlogger(s, *colors[:5], (1, 2), "XYZ")):
     try:
         bad()
     except TypeError:
@@ -92,8 +96,12 @@ with warnings.catch_warnings(record=True) as told:
 for w in told:
     print(w.category.__name__, w.message)
 show = lambda v: [round(x, 4) + 0.0 for x in v]
-print("vertex9:", show(module.vertex9("XYZ", (1, 2, 3, 90, 0, 0, 4, 5, 6))), show(module.vertex9("-XYZ", (1, 2, 3, 0, 0, 0, 0, 0, 0))), show(module.vertex9("AXYZ", (1, 2, 3, 90, 0, 0, 0, 0, 0))),
-      show(module.vertex9("XYZC", (1, 0, 0, 0, 0, 90, 0, 0, 0))), show(module.vertex9("XYZUVW", (1, 2, 3, 0, 0, 0, 10, 20, 30))))
+print("vertex9:", show(module.vertex9("XYZ", (1, 2, 3, 90, 0, 0, 4, 5, 6))),
+      show(module.vertex9("-XYZ", (1, 2, 3, 0, 0, 0, 0, 0, 0))),
+      show(module.vertex9("AXYZ", (1, 2, 3, 90, 0, 0, 0, 0, 0))),
+      show(module.vertex9("XYZC", (1, 0, 0, 0, 0, 90, 0, 0, 0))),
+      show(module.vertex9("XYZUVW", (1, 2, 3, 0, 0, 0, 10, 20, 30))))
 module.gui_respect_offsets("C", 1)
 module.gui_rot_offsets(1, 0, 0)
-print("about an offset:", show(module.vertex9("XYZC", (1, 0, 0, 0, 0, 90, 0, 0, 0))), show(module.vertex9("XYZA", (0, 1, 0, 90, 0, 0, 0, 0, 0))))
+print("about an offset:", show(module.vertex9("XYZC", (1, 0, 0, 0, 0, 90, 0, 0, 0))),
+      show(module.vertex9("XYZA", (0, 1, 0, 90, 0, 0, 0, 0, 0))))

@@ -16,8 +16,9 @@ call(stat.poll)
 call(errors.poll)
 call(command.abort)
 call(command.wait_complete, 0.1)
-print(stat.axis[0], len(stat.axis), len(stat.joint), len(stat.spindle), stat.joint[0]["homed"], stat.tool_table, stat.gcodes[:3], stat.homed, repr(stat.file),
-      stat.position, stat.estop, stat.enabled, stat.heartbeat, stat.settings)
+print(stat.axis[0], len(stat.axis), len(stat.joint), len(stat.spindle), stat.joint[0]["homed"], stat.tool_table,
+      stat.gcodes[:3], stat.homed, repr(stat.file), stat.position, stat.estop, stat.enabled,
+      stat.heartbeat, stat.settings)
 call(stat.toolinfo, 3)
 call(command.auto, 9)
 call(command.auto, linuxcnc.AUTO_RUN)

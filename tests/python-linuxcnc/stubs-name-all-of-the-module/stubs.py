@@ -34,7 +34,8 @@ for name, sample in (("Joint", s.joint[0]), ("Axis", s.axis[0]), ("Spindle", s.s
     inside = names(top[name].body).keys()
     print(f"{name}:", sorted(sample.keys() ^ inside))
 constants = [n for n, node in top.items() if isinstance(node, ast.AnnAssign) and node.value is not None]
-print("constants that differ:", [n for n in constants if getattr(linuxcnc, n) != ast.literal_eval(top[n].value)], len(constants) > 70)
+print("constants that differ:", [n for n in constants if getattr(linuxcnc, n) != ast.literal_eval(top[n].value)],
+      len(constants) > 70)
 # Scalar attributes have the annotated type.
 wrong = []
 for name, node in names(top["stat"].body).items():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# A Tk window of somebody's own with a preview (rs274.OpenGLTk and GlCanonDraw): the mouse pans, rotates, zooms and picks.
+# A Tk window of somebody's own with a preview (rs274.OpenGLTk and GlCanonDraw): the mouse
+# pans, rotates, zooms and picks.
 import tempfile
 import tkinter
 

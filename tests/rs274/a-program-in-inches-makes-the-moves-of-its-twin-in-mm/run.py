@@ -15,7 +15,8 @@ def program(seed: int, inch: bool) -> str:
             "G0 X%.9f Y%.9f" % (x * k, y * k), "G1 X%.9f Z%.9f" % (x * k, z * k),
             "G1 X0 Y0\nG2 X%.9f Y%.9f I%.9f J0 Z%.9f" % (i * k, i * k, i * k, z * k),
             "G1 X0 Y0\nG3 X%.9f Y0 R%.9f" % (i * k, i * k), "G92 X%.9f" % (x * k), "G92.1",
-            "G10 L2 P2 X%.9f Y%.9f R%.3f" % (x * k, y * k, r.uniform(0, 90)), "G55", "G54", "G43.1 Z%.9f" % (z * k), "G49",
+            "G10 L2 P2 X%.9f Y%.9f R%.3f" % (x * k, y * k, r.uniform(0, 90)), "G55", "G54",
+            "G43.1 Z%.9f" % (z * k), "G49",
             "G0 Z%.9f\nG81 X%.9f Y%.9f Z%.9f R%.9f\nG80" % (30 * k, x * k, y * k, -abs(z) * k, 2 * k), "G28.1", "G28",
             "G91 G1 X%.9f\nG90" % (x / 10 * k)]))
     return "\n".join(out) + "\nM2\n"
@@ -27,7 +28,8 @@ for seed in range(30):
     a, b = mm.moves(), inch.moves()
     check(len(a) == len(b) > 20, f"seed {seed}: {len(a)} and {len(b)} moves")
     for n, ((ka, va), (kb, vb)) in enumerate(zip(a, b)):
-        scaled = [v * 25.4 if not (ka == "ARC_FEED" and j == 4) and j not in ((6, 7, 8) if ka == "ARC_FEED" else (3, 4, 5)) else v
+        scaled = [v * 25.4 if not (ka == "ARC_FEED" and j == 4)
+                  and j not in ((6, 7, 8) if ka == "ARC_FEED" else (3, 4, 5)) else v
                   for j, v in enumerate(vb)]
         check(ka == kb and near(va, scaled, 0.003), f"seed {seed} move {n}: {ka}{va} / {kb}{scaled}")
 done()

@@ -38,16 +38,19 @@ for radius in (1e2, 1e3, 1e4, 1e5, 1e6):  # FP-099
         for g in "G2", "G3":
             sign = -1 if g == "G2" else 1
             with tempfile.NamedTemporaryFile("w", suffix=".ngc") as f:
-                f.write(f"G21 G17 G90 G91.1 F100\nG0 X0 Y0\nG1 X1\n{g} X{1 + chord} Y0 I{chord / 2} J{sign * radius}\nM2\n")
+                f.write(f"G21 G17 G90 G91.1 F100\nG0 X0 Y0\nG1 X1\n{g} X{1 + chord} Y0 I{chord / 2} "
+                        f"J{sign * radius}\nM2\n")
                 f.flush()
                 p = gcode.load(f.name)
             check(p.result == 1, p.error)
-            check(abs(p.cutting_length * 25.4 - 1 - chord) < chord * .01, f"FP-099 R{radius} chord {chord}: length {p.cutting_length * 25.4}")
+            check(abs(p.cutting_length * 25.4 - 1 - chord) < chord * .01,
+                  f"FP-099 R{radius} chord {chord}: length {p.cutting_length * 25.4}")
 
 # FP-109
 check(rs274("G21 F100\nG2 X10 Y0 I5.005 J0\nM2\n").status == 0, "5 um off runs")
 check(rs274("G21 F100\nG2 X10 Y0 R4.9990\nM2\n").status == 0, "R semicircle within rounding runs")
 strict = "[EMC]\nVERSION=1.1\n[TRAJ]\nLINEAR_UNITS=mm\n[RS274NGC]\nCENTER_ARC_RADIUS_TOLERANCE_MM=0.002\n"
-check(rs274("G21 F100\nG2 X10 Y0 I5.1 J0\nM2\n", ini=strict).error.startswith("Radius to end of arc differs"), "tolerance")
+check(rs274("G21 F100\nG2 X10 Y0 I5.1 J0\nM2\n", ini=strict).error.startswith("Radius to end of arc differs"),
+      "tolerance")
 check(rs274("G21 F100\nG2 X10 Y0 I5.0 J0\nM2\n", ini=strict).status == 0, "exact arc")
 done()

@@ -40,7 +40,8 @@ with tempfile.TemporaryDirectory() as scratch:
     calls.write_text("UNKNOWN()")
     known = rs274("-p", "canterp.so", "calls").stderr.rsplit(": ", 1)[1].split()
     calls.write_text("".join(f"{name}(\n" for name in known))
-    print("known names that are unknown:", [l for l in rs274("-n", "0", "-p", "canterp.so", "calls").stderr.splitlines() if "Unknown" in l],
+    print("known names that are unknown:",
+          [l for l in rs274("-n", "0", "-p", "canterp.so", "calls").stderr.splitlines() if "Unknown" in l],
           "missing:", sorted(kinds - set(known) - {"SPINDLE.0.WAIT_ORIENT_COMPLETE"}))
 
     bare = "; by hand\n\nUSE_LENGTH_UNITS(CANON_UNITS_INCHES)\n# feed\nSET_FEED_RATE ( 10 )   ; inches a minute\r\n" \
@@ -53,7 +54,9 @@ with tempfile.TemporaryDirectory() as scratch:
                  "STRAIGHT_FEED(1, 2)", "STRAIGHT_FEED(1, 2, 3, 0, 0, 0)", "   12 N..... NURBS_G5_FEED(3, ...)"):
         calls.write_text("\n" + line + "\n")
         done = rs274("-p", "canterp.so", "calls")
-        print(done.returncode, "\n".join(l[:100] for l in done.stderr.splitlines() if not l.startswith(("executing", "emcTask"))))
+        print(done.returncode, "\n".join(l[:100]
+                                         for l in done.stderr.splitlines()
+                                         if not l.startswith(("executing", "emcTask"))))
     # no cut-off or overgrown line does more than end with a message
     whole = "   12 N0010  SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, 0.050000) ; x\nN\n N..... \n COMMENT(\nCANON_ERROR)(\n" + "9" * 5000
     ends = set()

@@ -21,7 +21,8 @@ class Line:
         return math.hypot(p[0] - self.a[0] - t * dx, p[1] - self.a[1] - t * dy)
 
     def points(self):
-        return [(self.a[0] + (self.b[0] - self.a[0]) * k / 40, self.a[1] + (self.b[1] - self.a[1]) * k / 40) for k in range(41)]
+        return [(self.a[0] + (self.b[0] - self.a[0]) * k / 40, self.a[1] + (self.b[1] - self.a[1]) * k / 40)
+                for k in range(41)]
 
 
 class Arc:
@@ -66,7 +67,8 @@ for seed in range(260):
     contour = [bulge(r, a, b, tool) if r.random() < .4 else Line(a, b) for a, b in segments(corners)]
     entry = (corners[0][0] * 1.6, corners[0][1] * 1.6)
     plane, first, second, i, j = r.choice([("G17", "X", "Y", "I", "J"), ("G18", "Z", "X", "K", "I")])
-    text = [f"G21 {plane} G90 F100\nG0 {first}{entry[0]:.7f} {second}{entry[1]:.7f}\n{r.choice(['G41.1', 'G42.1'])} D{2 * tool:.7f}",
+    text = [f"G21 {plane} G90 F100\nG0 {first}{entry[0]:.7f} {second}{entry[1]:.7f}\n"
+            f"{r.choice(['G41.1', 'G42.1'])} D{2 * tool:.7f}",
             f"G1 {first}{corners[0][0]:.7f} {second}{corners[0][1]:.7f}"]
     for e in contour:
         end = f"{first}{e.b[0]:.7f} {second}{e.b[1]:.7f}"
@@ -74,7 +76,8 @@ for seed in range(260):
                     f"{'G3' if e.sweep > 0 else 'G2'} {end} {i}{e.centre[0] - e.a[0]:.7f} {j}{e.centre[1] - e.a[1]:.7f}")
     run = rs274("\n".join(text + ["G40", f"G0 {first}{entry[0]:.7f} {second}{entry[1]:.7f}", "M2"]) + "\n")
     if run.status:
-        check("gouging" in run.error or "entry" in run.error or "not less than arc" in run.error, f"seed {seed}: {run.error}")
+        check("gouging" in run.error or "entry" in run.error or "not less than arc" in run.error,
+              f"seed {seed}: {run.error}")
         continue
     ran += 1
     at = None
@@ -105,6 +108,7 @@ for passes in 1, 2, 3:
                     z, x = at[0] + (to[0] - at[0]) * k / 40, at[1] + (to[1] - at[1]) * k / 40
                     for (z0, x0), (z1, x1) in segments(contour):
                         if z1 < z < z0:
-                            check(x >= x0 + (x1 - x0) * (z - z0) / (z1 - z0) - 1e-6, f"FP-098 P{passes}: rapid through the part at Z{z} X{x}")
+                            check(x >= x0 + (x1 - x0) * (z - z0) / (z1 - z0) - 1e-6,
+                                  f"FP-098 P{passes}: rapid through the part at Z{z} X{x}")
             at = to
 done()

@@ -34,7 +34,8 @@ check([v[2] for _, v in run.moves()] == [-20, -20, -8, -5, -8, -6, -2, -20], run
 # FP-108
 run = rs274("G21 G7 G19 F100\nG0 X20 Y0 Z0\nG81 X-10 R3 Y5 Z6\nM2\n")
 check([v[0] for _, v in run.moves()] == [10, 10, 3, -5, 3], f"X is a diameter, R a radius: {run.moves()}")
-run = rs274("G7\nG0 X20\n(print,#5420 #<_x> #5021)\nG10 L20 P1 X4\n(print,#5420)\nG92 X8\n(print,#5420)\nG52 X2\n(print,#5211)\nM2\n")
+run = rs274("G7\nG0 X20\n(print,#5420 #<_x> #5021)\nG10 L20 P1 X4\n(print,#5420)\nG92 X8\n(print,#5420)\nG52 X2\n"
+            "(print,#5211)\nM2\n")
 check(run.printed == ["10.000000 10.000000 10.000000", "2.000000", "4.000000", "%.6f" % (1 / 25.4)], run.printed)
 
 # The quirks that the reference states
@@ -47,8 +48,8 @@ for text, want in {
     "G82 X1 R1 Z-1": "Dwell time p word missing with g82", "G83 X1 R1 Z-1": "Q word missing with g83",
     "G83 X1 R1 Z-1 Q0": "Negative or zero q value used", "G81 X1 A1 R1 Z-1": "Cannot put an a in canned cycle",
     "G84 X1 R1 Z-1": "Spindle not turning in G84", "G86 X1 R1 Z-1 P1": "Spindle not turning in g86",
-    "G93 G81 X1 R1 Z-1 F1": "Cannot use inverse time feed with canned cycles", "G87 X1 R1 Z-1": "I word missing with g87",
-}.items():
+    "G93 G81 X1 R1 Z-1 F1": "Cannot use inverse time feed with canned cycles",
+    "G87 X1 R1 Z-1": "I word missing with g87", }.items():
     got = rs274(f"F100\n{text}\nM2\n").error
     check(got == want, f"{text}: {got!r}, not {want!r}")
 check(rs274("G81 X1 R1 Z-1\nM2\n").error == "Cannot feed with zero feed rate", "F")

@@ -8,7 +8,8 @@ CUT = "F100|G1 X0 Y0|G41.1 D2|G1 X10 Y0|"  # left of a path to the right, radius
 LATHE = "G18 F100|G0 X20 Z5|"
 CONTOUR = "G18 F100|G0 X20 Z5|o100 sub|%s|o100 endsub|"
 LONG = "x" * 254
-P_WORD = ("P word with no G2 G3 G4 G10 G64 G5 G5.2 G6, G6.2, G76 G82 G86 G88 G89 or M50 M51 M52 M53 M62 M63 M64 M65 M66 M98 or user M code to use it")
+P_WORD = ("P word with no G2 G3 G4 G10 G64 G5 G5.2 G6, G6.2, G76 G82 G86 G88 G89 or M50 M51 M52 M53 M62 M63 M64 M65 "
+          "M66 M98 or user M code to use it")
 ARC = "start=(X0.0000,Y0.0000) center=(X%s,Y0.0000) end=(X%s,Y0.0000) r1=%s r2=%s"
 
 # Not: "A file is already open", "File not open", "File name too long", "Unable to open file" of a sub that is gone,
@@ -165,7 +166,8 @@ WORDS = [
     ("G0 J1", "J word with no G2, G3, G5, G5.1, G6, G6.1, G10, G76 or G87 to use it"),
     ("G0 K1", "K word with no G2, G3, G6.2, G33, G33.1, G76, or G87 to use it"),
     ("L1", "L word with no G10, cutter compensation, canned cycle, digital/analog input, M98 or NURBS code"),
-    ("F1 M4 S1|G74 X1 Z1 R1 L1", "L word with no G10, cutter compensation, canned cycle, digital/analog input, M98 or NURBS code"),
+    ("F1 M4 S1|G74 X1 Z1 R1 L1",
+     "L word with no G10, cutter compensation, canned cycle, digital/analog input, M98 or NURBS code"),
     ("P1", P_WORD),
     ("Q1", "Q word with no G5, G6, G10, G64, G73, G76, G83, M19, M66, M67, M68 or user M code that uses it"),
     ("R1", "R word with no g code that uses it"),
@@ -210,7 +212,8 @@ STRAIGHT = [
 ]
 
 ARCS = [
-    (COMP + "G1 X10 Y0|G40|G2 X1 I1", "The move just after exiting cutter compensation mode must be straight, not an arc"),
+    (COMP + "G1 X10 Y0|G40|G2 X1 I1",
+     "The move just after exiting cutter compensation mode must be straight, not an arc"),
     *[(f"F1 {p}|G2 X1 I1", "Cannot do an arc in planes G17.1, G18.1, or G19.1") for p in ("G17.1", "G18.1", "G19.1")],
     ("F1 G2 X1", "R i j k words all missing for arc"),
     ("F1 G2 X1 R1 I1", "Mixed radius ijk format for arc"),
@@ -227,7 +230,8 @@ ARCS = [
     ("F1 G19|G2 X1 R1", "Y and z words missing for arc in yz plane"),
     ("F1 G18|G2 Y1 R1", "X and z words missing for arc in xz plane"),
     ("F1 G2 X0 I0", "Zero-radius arc: " + ARC % ("0.0000", "0.0000", "0.0000", "0.0000")),
-    ("F1 G2 X4 I1", "Radius to end of arc differs from radius to start: " + ARC % ("1.0000", "4.0000", "1.0000", "3.0000") + " abs_err=2 rel_err=66.6667%"),
+    ("F1 G2 X4 I1", "Radius to end of arc differs from radius to start: " + ARC
+     % ("1.0000", "4.0000", "1.0000", "3.0000") + " abs_err=2 rel_err=66.6667%"),
     ("F1 G2 X0 R1", "Current point same as end point of arc"),
     ("F1 G2 X4 R1", "Arc radius too small to reach end point"),
     (COMP + "G5 X1 I1 J1 P1 Q1", "Cannot convert spline with cutter radius compensation"),
@@ -330,12 +334,15 @@ COMPENSATION = [
     *[(COMP + g, "Cannot change coordinate systems with cutter radius compensation on") for g in ("G54", "G59.3")],
     *[(COMP + g, "Cannot change control mode with cutter radius compensation on") for g in ("G61", "G61.1", "G64")],
     *[(COMP + g, "Cannot change retract mode with cutter radius compensation on") for g in ("G98", "G99")],
-    *[(COMP + g, "Cannot change tool offset with cutter radius compensation on") for g in ("G43", "G43.1 Z1", "G43.2 H1", "G49")],
+    *[(COMP + g, "Cannot change tool offset with cutter radius compensation on")
+      for g in ("G43", "G43.1 Z1", "G43.2 H1", "G49")],
     (COMP + "T1 M6", "Cannot change tools with cutter radius compensation on"),
     (COMP + "G53 G0 X1", "Cannot use g53 with cutter radius comp"),
     (COMP + "M48", "Cannot enable overrides with cutter radius compensation on"),
-    *[(COMP + m, "Cannot enable overrides with cutter radius compensation on") for m in ("M50", "M51 P1", "M52", "M53 P1")],
-    *[(COMP + m, "Cannot disable overrides with cutter radius compensation on") for m in ("M49", "M50 P0", "M51 P0", "M52 P0", "M53 P0")],
+    *[(COMP + m, "Cannot enable overrides with cutter radius compensation on")
+      for m in ("M50", "M51 P1", "M52", "M53 P1")],
+    *[(COMP + m, "Cannot disable overrides with cutter radius compensation on")
+      for m in ("M49", "M50 P0", "M51 P0", "M52 P0", "M53 P0")],
     (COMP + "M66 P1", "Cannot wait for digital input with cutter radius compensation on"),
     (COMP + "M66 E1", "Cannot wait for analog input with cutter radius compensation on"),
     ("F100|G41.1 D2|G1 X.5", "Length of cutter compensation entry move is not greater than the tool radius"),
@@ -346,8 +353,10 @@ COMPENSATION = [
     (CUT + "G1 X11|Y10|X10.5|Y0|G40", "Straight feed in concave corner cannot be reached by the tool without gouging"),
     (CUT + "G0 X11|Y.1|X0|G40", "Straight traverse in concave corner cannot be reached by the tool without gouging"),
     (CUT + "G3 X8.5 Y1.5 I-1.5", "Arc move in concave corner cannot be reached by the tool without gouging"),
-    (CUT + "G3 X10 Y2.4 J1.2|G1 Y0", "Arc to straight motion makes a corner the compensated tool can't fit in without gouging"),
-    (CUT + "G3 X10 Y2.4 J1.2|X12 Y.4 I2", "Arc to arc motion makes a corner the compensated tool can't fit in without gouging"),
+    (CUT + "G3 X10 Y2.4 J1.2|G1 Y0",
+     "Arc to straight motion makes a corner the compensated tool can't fit in without gouging"),
+    (CUT + "G3 X10 Y2.4 J1.2|X12 Y.4 I2",
+     "Arc to arc motion makes a corner the compensated tool can't fit in without gouging"),
     (CUT + "G3 X10 Y2.4 J1.2|G2 X10 Y0 J-1.2", "Arc to arc motion is invalid because the arcs have the same center"),
     ("G41.1", "G41.1 with no D word"),
     ("G42.1", "G42.1 with no D word"),
@@ -358,7 +367,8 @@ COMPENSATION = [
     ("G41 D50", "Requested tool 50 not found in the tool table"),
     ("G42 D7", "G42 with lathe tool, but plane is not G18"),
 ]
-for m, what in (("M62 P1", "motion output"), ("M63 P1", "motion digital output"), ("M64 P1", "auxiliary digital output"), ("M65 P1", "auxiliary digital output"),
+for m, what in (("M62 P1", "motion output"), ("M63 P1", "motion digital output"),
+                ("M64 P1", "auxiliary digital output"), ("M65 P1", "auxiliary digital output"),
                 ("M67 E1 Q1", "motion analog output"), ("M68 E1 Q1", "auxiliary analog output")):
     COMPENSATION.append((COMP + m, f"Cannot set {what} with cutter radius compensation on"))
 
@@ -399,12 +409,15 @@ TOOLS = [
     ("M66 P64", "Digital input selected out of bounds"),
     ("M66 E64", "Analog input selected out of bounds"),
     ("M72", "Cannot restore context from invalid stack frame - missing M70/M73?"),
-    ("G41.1 D1|M70|G40|G55|M72", "M7x: restore_settings failed executing: 'F0.0 S0 G41 G54 G64 P0.000000 Q0.000000': Cannot change coordinate systems with cutter radius compensation on"),
+    ("G41.1 D1|M70|G40|G55|M72",
+     "M7x: restore_settings failed executing: 'F0.0 S0 G41 G54 G64 P0.000000 Q0.000000': Cannot change coordinate "
+     "systems with cutter radius compensation on"),
     ("(abort,stop #<_motion_mode>)", "stop 800.000000"),
     ("(abort,#<)", "The program ends itself: (ABORT,) without a text"),
 ]
 
-# Not: "Unknown oword number", "Bug: call stack underrun", "found in illegal location", "Found 'M99' instead of 'O endsub'".
+# Not: "Unknown oword number", "Bug: call stack underrun", "found in illegal location", "Found
+# 'M99' instead of 'O endsub'".
 O_WORDS = [
     ("o1 sub|o2 sub|o2 endsub|o1 endsub", "Nested subroutine definition"),
     ("o1 sub|o2|o1 endsub", "Nested subroutine definition"),
@@ -419,7 +432,8 @@ O_WORDS = [
     ("o1 while [0]|o1 endwhile|o1 while [0]", "3: duplicate O-word label: 'o1 while [0]' - defined in line 1"),
     ("o1 repeat [1]|o1 endrepeat|o1 repeat [1]", "3: duplicate O-word label: 'o1 repeat [1]' - defined in line 1"),
     ("o1 if [0]|o1 endif|o1 if [0]", "3: duplicate O-word label - already defined in line 1: 'o1 if [0]'"),
-    *[(f"o1 {word}", f"1: undefined O-word label: 'o1 {word}'") for word in ("endif", "else", "elseif [1]", "endwhile", "endrepeat", "break", "continue")],
+    *[(f"o1 {word}", f"1: undefined O-word label: 'o1 {word}'")
+      for word in ("endif", "else", "elseif [1]", "endwhile", "endrepeat", "break", "continue")],
     ("o1 do|o1 else", "2: no matching 'if' label: 'o1 else' (found 'do' in line 1)"),
     ("o1 do|o1 elseif [1]", "2: no matching 'if' label: 'o1 elseif [1]' (found 'do' in line 1)"),
     ("o1 do|o1 endif", "2: no matching label: '#1' (found 'do' in line 1): 'o1 endif'"),
@@ -437,12 +451,14 @@ O_WORDS = [
     ("m98 l2", "Found 'm98' code with no P-word"),
     ("G0 X1 M98 P1", "Unknown m code used: M98"),
 ]
-SUBS = {"in.ngc": "o<in> sub\no5 sub\no5 endsub\no<in> endsub\n", "calls.ngc": "o<calls> sub\no<none> call\no<calls> endsub\n"}
+SUBS = {"in.ngc": "o<in> sub\no5 sub\no5 endsub\no<in> endsub\n",
+        "calls.ngc": "o<calls> sub\no<none> call\no<calls> endsub\n"}
 
 MACHINE = "[EMC]\nVERSION=1.1\n[TRAJ]\nLINEAR_UNITS=mm\n[RS274NGC]\n"
 WITH_INI = [  # INI, program, message
     ("DISABLE_FANUC_STYLE_SUB=1\n", "m98 p1", "DISABLE_FANUC_STYLE_SUB set in INI file, but found m98"),
-    ("DISABLE_FANUC_STYLE_SUB=1\n", "o1 sub|m99|o1 endsub|o1 call", "DISABLE_FANUC_STYLE_SUB set in INI file, but found m99"),
+    ("DISABLE_FANUC_STYLE_SUB=1\n", "o1 sub|m99|o1 endsub|o1 call",
+     "DISABLE_FANUC_STYLE_SUB set in INI file, but found m99"),
     ("DISABLE_FANUC_STYLE_SUB=1\n", "o1", "DISABLE_FANUC_STYLE_SUB disabled in INI file, but found bare O-word"),
     ("", "G0 X#<_ini[traj]nothing>", "Named parameter #<_ini[traj]nothing> not defined"),
     ("[AXIS_A]\nWRAPPED_ROTARY=1\n", "G0 A360", "Invalid absolute position 360.00 for wrapped rotary axis A"),

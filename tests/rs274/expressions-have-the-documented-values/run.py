@@ -17,16 +17,23 @@ for (text, want), value in zip(values.items(), got):
 check(len(got) == len(values), got)
 
 errors = {
-    "X[1/0]": "Attempt to divide by zero", "X[": "No characters found in reading real value", "X[1": "Unclosed expression",
-    "X[1&2]": "Unknown operation", "X[1 mood 2]": "Unknown operation name starting with m", "Xsinn[1]": "Left bracket missing after unary operation name",
-    "Xcot[1]": "Unknown word starting with c", "Xq": "Unknown word where unary operation could be", "Xacos[2]": "Argument to acos out of range",
-    "Xsqrt[-1]": "Negative argument to sqrt", "Xln[0]": "Zero or negative argument to ln", "X[[0-2]**.5]": "Attempt to raise negative to non integer power",
+    "X[1/0]": "Attempt to divide by zero", "X[": "No characters found in reading real value",
+    "X[1": "Unclosed expression", "X[1&2]": "Unknown operation",
+    "X[1 mood 2]": "Unknown operation name starting with m",
+    "Xsinn[1]": "Left bracket missing after unary operation name",
+    "Xcot[1]": "Unknown word starting with c", "Xq": "Unknown word where unary operation could be",
+    "Xacos[2]": "Argument to acos out of range", "Xsqrt[-1]": "Negative argument to sqrt",
+    "Xln[0]": "Zero or negative argument to ln", "X[[0-2]**.5]": "Attempt to raise negative to non integer power",
     "Xatan[1]": "Slash missing after first atan argument", "Xatan[1]/2": "Left bracket missing after slash with atan",
-    "X1.2.3": "bad number format (trailing characters) parsing '1.2.3'", "X.": "bad number format (conversion failed) parsing '.'",
-    "X#0": "Parameter number out of range", "X#5602": "Parameter number out of range", "X#1.5": "Non integer value for integer",
-    "X#<a": "Named parameter not terminated", "X#<nope>": "Named parameter #<nope> not defined", "#5400=1": "Parameter is readonly",
+    "X1.2.3": "bad number format (trailing characters) parsing '1.2.3'",
+    "X.": "bad number format (conversion failed) parsing '.'",
+    "X#0": "Parameter number out of range", "X#5602": "Parameter number out of range",
+    "X#1.5": "Non integer value for integer",
+    "X#<a": "Named parameter not terminated", "X#<nope>": "Named parameter #<nope> not defined",
+    "#5400=1": "Parameter is readonly",
     "#1 2": "Equal sign missing in parameter setting", "X[5 mod 0]": "Calculation resulted in 'not a number'",
-    "Xexp[1000]": "Calculation resulted in 'infinity'", "X1-2": "Bad character '-' used", "#<_x>=1": "Cannot assign to read-only parameter #<_x>",
+    "Xexp[1000]": "Calculation resulted in 'infinity'", "X1-2": "Bad character '-' used",
+    "#<_x>=1": "Cannot assign to read-only parameter #<_x>",
 }
 for text, want in errors.items():
     got = rs274(f"G0 {text}\nM2\n" if text[0] == "X" else text + "\nM2\n")

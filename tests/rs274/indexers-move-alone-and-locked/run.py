@@ -18,8 +18,9 @@ check(moves == [ALONE, ("STRAIGHT_TRAVERSE", [0, 90]), AGAIN], (moves, r.err))
 moves, r = path("G61\nG0 C90")
 check(moves == [ALONE, ("STRAIGHT_TRAVERSE", [0, 90])], moves)
 moves, r = path("G0 X1\nG28 X5 C30")
-check(moves == [("STRAIGHT_TRAVERSE", [1, 0]), ALONE, ("STRAIGHT_TRAVERSE", [1, 30]), AGAIN, ("STRAIGHT_TRAVERSE", [5, 30]),
-                ALONE, ("STRAIGHT_TRAVERSE", [5, 0]), AGAIN, ("STRAIGHT_TRAVERSE", [0, 0])], moves)
+check(moves == [("STRAIGHT_TRAVERSE", [1, 0]), ALONE, ("STRAIGHT_TRAVERSE", [1, 30]), AGAIN,
+                ("STRAIGHT_TRAVERSE", [5, 30]), ALONE, ("STRAIGHT_TRAVERSE", [5, 0]), AGAIN,
+                ("STRAIGHT_TRAVERSE", [0, 0])], moves)
 check(path("G0 X1 C5")[1].error == "Indexing axis C can only be moved alone", "alone")
 check(path("G1 C5")[1].error == "Indexing axis C can only be moved with G0", "rapid")
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """(The machine model of rs274 does not convert a tool offset in force when the units change, so
-units change here without one.) Property: G5x, G10, G92, G52, tool offsets, rotation and units change the numbers, never the absolute
-position. FP-100: M2 with DISABLE_G92_PERSISTENCE clears parameters and offset together. FP-101: stored
-positions are machine positions under any offset, rotation, unit and tool. FP-102: rotating there and
+units change here without one.) Property: G5x, G10, G92, G52, tool offsets, rotation and units change the numbers,
+never the absolute position. FP-100: M2 with DISABLE_G92_PERSISTENCE clears parameters and offset together. FP-101:
+stored positions are machine positions under any offset, rotation, unit and tool. FP-102: rotating there and
 back restores the position exactly."""
 import random
 from harness import *
@@ -16,8 +16,9 @@ for seed in range(60):
     for _ in range(40):
         program += r.choice([
             f"G10 L2 P{r.randint(0, 9)} X{n()} Y{n()} Z{n()} R{n()}", f"G10 L20 P{r.randint(0, 9)} X{n()} Y{n()}",
-            f"G{r.choice([54, 55, 56, 57, 58, 59, 59.1, 59.2, 59.3])}", f"G92 X{n()} Y{n()} Z{n()}", f"G52 X{n()}", "G92.1",
-            "G92.2", "G92.3", f"G43.1 X{n()} Z{n()}", "G43 H3", "G49", f"G43.2 H{r.randint(1, 3)}", "G49\nG20", "G49\nG21", "G28.1",
+            f"G{r.choice([54, 55, 56, 57, 58, 59, 59.1, 59.2, 59.3])}", f"G92 X{n()} Y{n()} Z{n()}",
+            f"G52 X{n()}", "G92.1", "G92.2", "G92.3", f"G43.1 X{n()} Z{n()}", "G43 H3", "G49",
+            f"G43.2 H{r.randint(1, 3)}", "G49\nG20", "G49\nG21", "G28.1",
             f"G10 L1 P1 X{n()} Z{n()}", f"G10 L10 P1 X{n()} Z{n()}", f"G10 L11 P2 Y{n()}"]) + "\n" + ABS + HOME
     run = rs274(program + "M2\n")
     check(run.status == 0, f"seed {seed}: {run.error}")
@@ -33,10 +34,12 @@ for seed in range(60):
 for seed in range(30):
     r = random.Random(seed)
     n = lambda: "%.4f" % r.uniform(-30, 30)
-    run = rs274(f"{r.choice(['G20', 'G21'])}\nG0 X{n()} Y{n()} Z{n()}\n" + ABS + f"G30.1\nG10 L2 P1 X{n()} Y{n()} R{n()}\n"
+    run = rs274(f"{r.choice(['G20', 'G21'])}\nG0 X{n()} Y{n()} Z{n()}\n" + ABS
+                + f"G30.1\nG10 L2 P1 X{n()} Y{n()} R{n()}\n"
                 f"G92 X{n()}\nG43.1 Z{n()}\nG0 X{n()} Y{n()}\nG30\n" + ABS + "M2\n")
     a, b = ([float(x) for x in l.split()] for l in run.printed)
-    check(near([x if a[3] else x * 25.4 for x in a[:3]], [x if b[3] else x * 25.4 for x in b[:3]], 1e-5), f"FP-101: {a} {b}")
+    check(near([x if a[3] else x * 25.4 for x in a[:3]], [x if b[3] else x * 25.4 for x in b[:3]], 1e-5),
+          f"FP-101: {a} {b}")
 
 # FP-102
 for seed in range(20):

@@ -25,8 +25,10 @@ check(state["bak"] is not None and "p.var.new" not in state["files"], "the old v
 rs274("M2\n", keep=remember)
 check("5220\t1.000000\n" in state["text"], "a new file")
 
-for text, want, line in (("5161\t1\n5160\t2\n", "Parameter file out of order", 2), ("31 1\n31 2\n", "Parameter file out of order", 2),
-                         ("5602\t1\n", "Parameter number out of range", 1), ("1 1\n0 1\n", "Parameter number out of range", 2)):
+for text, want, line in (("5161\t1\n5160\t2\n", "Parameter file out of order", 2),
+                         ("31 1\n31 2\n", "Parameter file out of order", 2),
+                         ("5602\t1\n", "Parameter number out of range", 1),
+                         ("1 1\n0 1\n", "Parameter number out of range", 2)):
     run = rs274("M2\n", var=text, keep=remember)
     check(run.status == 1 and run.error == want, run.err)
     check(state["text"] == text and "p.var.new" not in state["files"], "a damaged file is left alone")

@@ -23,7 +23,8 @@ REMAP=M407 modalgroup=10 python=m407
 REMAP=G88.2 modalgroup=1 argspec=XZ python=g882
 """
 FILES = {
-    "python/toplevel.py": "import remap\nimport oword\nimport namedparams\ndef __init__(self):\n    print('init', self.task)\ndef __delete__(self):\n    print('delete')\n",
+    "python/toplevel.py": "import remap\nimport oword\nimport namedparams\ndef __init__(self):\n"
+                          "    print('init', self.task)\ndef __delete__(self):\n    print('delete')\n",
     "python/remap.py": """from interpreter import *
 import emccanon
 def m400(self, **words):
@@ -68,7 +69,9 @@ def g882(self, **words):
     print('cycle', sorted(words.items()), self.blocks[self.remap_level].g_modes[1])
     self.motion_mode = 882
 """,
-    "python/oword.py": "def square(self, *a):\n    return a[0]**2\ndef wait(self, *a):\n    self.execute('M66 P1 L0')\n    yield 2\n    print('waited', self.params[5399])\n    yield 8.5\n"
+    "python/oword.py": "def square(self, *a):\n    return a[0]**2\ndef wait(self, *a):\n"
+                       "    self.execute('M66 P1 L0')\n    yield 2\n    print('waited', self.params[5399])\n"
+                       "    yield 8.5\n"
                        "def nothing(self):\n    pass\ndef bad(self):\n    return 'x'\n",
     "python/namedparams.py": "def _answer(self):\n    return 42\ndef _bad(self):\n    return None\n",
     "subs/six.ngc": "o<six> sub\n(debug,zz=#<zz> rl=#<_remap_level> cl=#<_call_level>)\nM6\no<six> endsub [5]\n",
@@ -82,27 +85,38 @@ def run(program, ini=INI):
 
 r = run("G21 F100\nM400 P5 Q7 G0 X3\nT1\nM6\nM401\nM2\n")
 check(r.status == 0, r.err)
-check(r.printed == ["init 0", "m400 {'p': 5.0, 'q': 7.0} 5.0 Remap(M400 argspec=Pq modal_group=10 prolog=None ngc=None python=m400 epilog=None)",
-                    "prolog 1 1 -1 1", "epilog True 5.0 1 7.0", "probed -5.0 0.0", "in sub 3.000000", "after sub 4.0 3.0 382 5602", "delete"], r.printed)
+check(r.printed == ["init 0",
+                    "m400 {'p': 5.0, 'q': 7.0} 5.0 Remap(M400 argspec=Pq modal_group=10 prolog=None ngc=None "
+                    "python=m400 epilog=None)",
+                    "prolog 1 1 -1 1", "epilog True 5.0 1 7.0", "probed -5.0 0.0", "in sub 3.000000",
+                    "after sub 4.0 3.0 382 5602", "delete"], r.printed)
 check([n for n, _ in r.calls if n in ("MESSAGE", "CHANGE_TOOL", "STRAIGHT_FEED", "STRAIGHT_TRAVERSE")] ==
       ["STRAIGHT_FEED", "MESSAGE", "STRAIGHT_TRAVERSE", "MESSAGE", "CHANGE_TOOL"], r.out)
-r = run("o<square> call [7]\n(print,#<_value> #<_value_returned> #<_answer>)\no<wait> call\n(print,#<_value>)\no<nothing> call\n(print,#<_value_returned>)\n"
+r = run("o<square> call [7]\n(print,#<_value> #<_value_returned> #<_answer>)\no<wait> call\n(print,#<_value>)\n"
+        "o<nothing> call\n(print,#<_value_returned>)\n"
         "M403\n;py,print('line', this.params['_answer'])\nG88.2 X1 Z2\nX3 Z4\nM2\n")
-check(r.printed[1:-1] == ["49.000000 1.000000 42.000000", "waited 0.0", "8.500000", "0.000000", "caught Attempt to divide by zero G1 X[1/0]",
-                          "parameter does not exist: nothere", "line 42.0", "cycle [('x', 1.0), ('z', 2.0)] 882", "cycle [('x', 3.0), ('z', 4.0)] -1"], r.printed)
-for program, want, line in (("M402", "my error", "O <m402> call "), ("M405", "pycall(m405):", None), ("M406", "said so", None),
-                            ("M407", "handler_returned: m407 returned double: 1.500000 - invalid", None), ("M404 P1", "add parameters: can't add 'p' to args", "M404 P1"),
-                            ("o<bad> call", "pycall(oword.bad) failed", None), ("G0 X#<_bad>", "Python namedparams._bad returns no value", "G0 X#<_bad>"),
+check(r.printed[1:-1] == ["49.000000 1.000000 42.000000", "waited 0.0", "8.500000", "0.000000",
+                          "caught Attempt to divide by zero G1 X[1/0]", "parameter does not exist: nothere",
+                          "line 42.0", "cycle [('x', 1.0), ('z', 2.0)] 882", "cycle [('x', 3.0), ('z', 4.0)] -1"],
+                          r.printed)
+for program, want, line in (("M402", "my error", "O <m402> call "), ("M405", "pycall(m405):", None),
+                            ("M406", "said so", None),
+                            ("M407", "handler_returned: m407 returned double: 1.500000 - invalid", None),
+                            ("M404 P1", "add parameters: can't add 'p' to args", "M404 P1"),
+                            ("o<bad> call", "pycall(oword.bad) failed", None),
+                            ("G0 X#<_bad>", "Python namedparams._bad returns no value", "G0 X#<_bad>"),
                             (";py,1/0", None, ";py,1/0")):
     r = run(program + "\nM2\n")
     lines = r.err.split("\n")
     check(r.status == 1 and (want is None or want in lines), f"{program}: {r.err}")
     check(line is None or line in lines, f"{program}: {r.err}")
-check("ZeroDivisionError" in run(";py,1/0\nM2\n").err and "ValueError: boom" in run("M405\nM2\n").err, "tracebacks are shown")
+check("ZeroDivisionError" in run(";py,1/0\nM2\n").err and "ValueError: boom" in run("M405\nM2\n").err,
+      "tracebacks are shown")
 r = run("M2\n", INI.replace("python=m400", "python=nothere"))
 check(r.status == 1 and "'nothere' is not a Python callable function" in r.err, r.err)
 # Types and fields that handlers of others use.
-r = rs274("M3 S5\nM400\nM2\n", ini=INI.replace("argspec=Pq python=m400", "python=m409"), files={**FILES, "python/remap.py": FILES["python/remap.py"] + """
+r = rs274("M3 S5\nM400\nM2\n", ini=INI.replace("argspec=Pq python=m400", "python=m409"),
+          files={**FILES, "python/remap.py": FILES["python/remap.py"] + """
 import interpreter
 def m409(self, **words):
     b = self.blocks[self.remap_level]
@@ -119,14 +133,17 @@ check(r.printed[1:3] == ["1 LEFT True 4 True True 2 0 1 8 True", "this array can
 def with_handler(body):
     files = dict(FILES)
     files["python/remap.py"] = FILES["python/remap.py"] + "def m408(self, **words):\n" + body
-    return rs274("G0 X1\nM408\nG0 X2\nM2\n", ini=INI.replace("[RS274NGC]\n", "[RS274NGC]\nREMAP=M408 modalgroup=10 python=m408\n"), files=files)
+    return rs274("G0 X1\nM408\nG0 X2\nM2\n",
+                 ini=INI.replace("[RS274NGC]\n", "[RS274NGC]\nREMAP=M408 modalgroup=10 python=m408\n"), files=files)
 
 
 for body in ("    pass\n", "    return INTERP_OK\n", "    yield INTERP_OK\n", "    yield INTERP_EXECUTE_FINISH\n"):
     r = with_handler(body)
     check(r.status == 0 and [a[0] for n, a in r.moves()] == [1, 2], body + r.err)
-for body, shown in (("    undefined_name()\n", "NameError"), ("    yield INTERP_OK\n    1 +\n", "SyntaxError"), ("    import sys\n    sys.exit(3)\n", "SystemExit"),
-                    ("    def inner():\n        yield INTERP_EXECUTE_FINISH\n        raise KeyError('k')\n    yield from inner()\n", "KeyError")):
+for body, shown in (("    undefined_name()\n", "NameError"), ("    yield INTERP_OK\n    1 +\n", "SyntaxError"),
+                    ("    import sys\n    sys.exit(3)\n", "SystemExit"),
+                    ("    def inner():\n        yield INTERP_EXECUTE_FINISH\n        raise KeyError('k')\n"
+                     "    yield from inner()\n", "KeyError")):
     r = with_handler(body)
     check(r.status == 1 and shown in r.err and "remap.py" in r.err and re.search(r"line \d+", r.err), body + r.err)
     check([a[0] for n, a in r.moves()] in ([1], []), r.out)

@@ -4,8 +4,9 @@ change in between."""
 import random
 from harness import *
 
-groups = [["G17", "G18", "G19"], ["G20", "G21"], ["G90", "G91"], ["G90.1", "G91.1"], ["G94", "G95", "G93"], ["G98", "G99"], ["G54", "G55", "G59.3"],
-          ["G61", "G61.1", "G64 P0.1 Q0.05"], ["G7", "G8"], ["M3", "M4", "M5"], ["M7", "M9"], ["M48", "M49"], ["G43.1 Z1", "G49"]]
+groups = [["G17", "G18", "G19"], ["G20", "G21"], ["G90", "G91"], ["G90.1", "G91.1"], ["G94", "G95", "G93"],
+          ["G98", "G99"], ["G54", "G55", "G59.3"], ["G61", "G61.1", "G64 P0.1 Q0.05"], ["G7", "G8"], ["M3", "M4", "M5"],
+          ["M7", "M9"], ["M48", "M49"], ["G43.1 Z1", "G49"]]
 SHOW = "(print,#<_plane> #<_metric> #<_absolute> #<_ijk_absolute_mode> #<_inverse_time> #<_units_per_minute> #<_units_per_rev>)\n" \
        "(print,#<_retract_old_z> #<_coord_system> #<_lathe_diameter_mode> #<_spindle_on> #<_spindle_cw> #<_mist> #<_feed_override> #<_speed_override> " \
        "#<_tool_offset>)\n"

@@ -17,10 +17,12 @@ PROGRAM = "G21 G90 F600\nG0 X0 Y0 Z5\nG1 Z0\nX50\nG2 X50 Y40 J20 I0\nG1 X0\nY0\n
 def status(**other):
     axis = dict(min_position_limit=-100.0, max_position_limit=100.0)
     tool = (0, *[0.0] * 12, 0)
-    values = dict(axis=[axis] * 9, tool_offset=[0.0] * 9, g5x_offset=[0.0] * 9, g92_offset=[0.0] * 9, g5x_index=1, rotation_xy=0.0, axis_mask=7,
-                  position=[10.0, 20.0, 5.0] + [0.0] * 6, actual_position=[0.0] * 9, joint_position=[1.0] * 9, joint_actual_position=[0.0] * 9,
-                  tool_in_spindle=0, tool_table=[tool] * 3, homed=(1, 0, 1) + (0,) * 13, limit=(0, 2) + (0,) * 14, dtg=[0.0] * 9,
-                  distance_to_go=0.0, current_vel=2.0, linear_units=1.0, angular_units=1.0, block_delete=False)
+    values = dict(axis=[axis] * 9, tool_offset=[0.0] * 9, g5x_offset=[0.0] * 9, g92_offset=[0.0] * 9, g5x_index=1,
+                  rotation_xy=0.0, axis_mask=7, position=[10.0, 20.0, 5.0] + [0.0] * 6, actual_position=[0.0] * 9,
+                  joint_position=[1.0] * 9, joint_actual_position=[0.0] * 9,
+                  tool_in_spindle=0, tool_table=[tool] * 3, homed=(1, 0, 1) + (0,) * 13,
+                  limit=(0, 2) + (0,) * 14, dtg=[0.0] * 9, distance_to_go=0.0, current_vel=2.0, linear_units=1.0,
+                  angular_units=1.0, block_delete=False)
     return SimpleNamespace(**values | other)
 
 
@@ -98,8 +100,8 @@ with tempfile.TemporaryDirectory() as folder, gl.OffScreen(*SIZE) as off:
     print("its own ground:", list(map(int, screen.picture()[SIZE[1] // 2, SIZE[0] - 2])))
     limits, homed, short, long = screen.posstrs()
     print("\n".join(short + ["--"] + long), limits, homed, sep="\n")
-    print("inches:", screen.to_internal_units([25.4, 50.8, 0, 90, 0, 0, 25.4, 0, 0]), screen.to_internal_linear_unit(1.0, 1 / 25.4),
-          screen.from_internal_units([1.0] * 4)[2:])
+    print("inches:", screen.to_internal_units([25.4, 50.8, 0, 90, 0, 0, 25.4, 0, 0]),
+          screen.to_internal_linear_unit(1.0, 1 / 25.4), screen.from_internal_units([1.0] * 4)[2:])
     for size in (1, 9):
         screen.set_cone_basesize(size)
         print("cone:", screen.cone_basesize)

@@ -16,7 +16,8 @@ class Canon:
     def get_axis_mask(self): return 0x1ff
     def get_external_length_units(self): return 1.0
     def get_external_angular_units(self): return 1.0
-    def get_tool(self, i): return (1, 0., 0., 10., 0., 0., 0., 0., 0., 0., 6., 0., 0., 0) if i < 2 else (-1,) + (0.,) * 12 + (0,)
+    def get_tool(self, i): return (1, 0., 0., 10., 0., 0., 0., 0., 0., 0., 6., 0., 0.,
+                                   0) if i < 2 else (-1,) + (0.,) * 12 + (0,)
     def get_block_delete(self): return 0
     def check_abort(self): return False
 
@@ -42,15 +43,19 @@ with tempfile.TemporaryDirectory() as d:
         c = canon(d)
         return gcode.parse(d + "/t.ngc", c, list(codes)), c.log
 
-    result, log = parse("G1 X25.4 F254 (hello)\nG2 X0 I-12.7\n(msg,hi)\nG4P.5\nM101P3\nT1 M6\nG43 H1\nG0 Z2.54 A90\nG18\nM2\n", codes=["G21"])
+    result, log = parse("G1 X25.4 F254 (hello)\nG2 X0 I-12.7\n(msg,hi)\nG4P.5\nM101P3\nT1 M6\nG43 H1\nG0 "
+                        "Z2.54 A90\nG18\nM2\n", codes=["G21"])
     check(result == (1, 10), result)
     calls = [l for l in log if l[0] != "next_line"]
-    check(calls[:3] == [("set_g5x_offset", 1) + (0.,) * 9, ("set_g92_offset",) + (0.,) * 9, ("set_xy_rotation", 0.)], calls[:3])
+    check(calls[:3] == [("set_g5x_offset", 1) + (0.,) * 9, ("set_g92_offset",) + (0.,) * 9, ("set_xy_rotation", 0.)],
+          calls[:3])
     check(calls[3:] == [("comment", "hello"), ("set_feed_rate", 10.), ("straight_feed", 1.) + (0.,) * 8,
                         ("arc_feed", 0., 0., .5, 0., -1, 0., 0., 0., 0., 0., 0., 0.), ("message", "hi"), ("dwell", .5),
-                        ("user_defined_function", 1, 3., -1.), ("change_tool", 1), ("tool_offset", 0., 0., 10. / 25.4) + (0.,) * 6,
+                        ("user_defined_function", 1, 3., -1.), ("change_tool", 1),
+                        ("tool_offset", 0., 0., 10. / 25.4) + (0.,) * 6,
                         ("straight_traverse", 0., 0., .1, 90.) + (0.,) * 5, ("set_plane", 3),
-                        ("set_g5x_offset", 1) + (0.,) * 9, ("set_xy_rotation", 0.), ("set_plane", 1), ("set_feed_rate", 0.)], calls[3:])
+                        ("set_g5x_offset", 1) + (0.,) * 9, ("set_xy_rotation", 0.), ("set_plane", 1),
+                        ("set_feed_rate", 0.)], calls[3:])
     lines = [l[1] for l in log if l[0] == "next_line"]
     check(lines == [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10], lines)
     check([l for l in log if l[0] == "next_line" and l[1] == 2][0][2:] == (10, 254.0), "codes before the line")
@@ -70,7 +75,8 @@ with tempfile.TemporaryDirectory() as d:
 
     result, log = parse("%\n#1=2\nG1 X1 F1\n(none)\nX[#<nope>]\n%\n", codes=["G21", "G90", "G17"])
     lines = [l[1] for l in log if l[0] == "next_line"]
-    check(lines == [0, 3, 4, 5] and result == (5, 5), f"lines of a % file after init codes, and the one with the error: {lines} {result}")
+    check(lines == [0, 3, 4, 5] and result == (5, 5),
+          f"lines of a % file after init codes, and the one with the error: {lines} {result}")
 
     arcs = Canon(d)         # answers every name, also length_units
     arcs.lo, arcs.plane, arcs.rotation_cos, arcs.rotation_sin = (1.,) + (0.,) * 8, 1, 1., 0.
@@ -82,7 +88,8 @@ with tempfile.TemporaryDirectory() as d:
 
     open(d + "/mm.ini", "w").write("[TRAJ]\nLINEAR_UNITS = mm\n")
     os.environ["INI_FILE_NAME"] = d + "/mm.ini"
-    heights = [round(25.4 * l[3], 6) for l in parse("G0 Z9\nG83 X1 Z-5 R2 Q4 F9\nM2\n", codes=["G21"])[1] if l[0] == "straight_traverse"]
+    heights = [round(25.4 * l[3], 6)
+               for l in parse("G0 Z9\nG83 X1 Z-5 R2 Q4 F9\nM2\n", codes=["G21"])[1] if l[0] == "straight_traverse"]
     del os.environ["INI_FILE_NAME"]
     check(heights == [9, 9, 2, 2, -1, 2], f"the peck goes back as far as the machine's does: {heights}")
 
@@ -103,34 +110,42 @@ with tempfile.TemporaryDirectory() as d:
         pass
 
     # arrays
-    open(d + "/t.ngc", "w").write("G21 G90 F254\nG0 X25.4\nG1 Y25.4\nG2 X50.8 Y50.8 I25.4 J0\nG10 L2 P1 X25.4 R90\nG0 X0 Y0\n(AXIS,hide)\nG1 X99\n(AXIS,show)\nG4 P2\nM101\n"
+    open(d + "/t.ngc", "w").write("G21 G90 F254\nG0 X25.4\nG1 Y25.4\nG2 X50.8 Y50.8 I25.4 J0\nG10 L2 P1 X25.4 R90\n"
+                                  "G0 X0 Y0\n(AXIS,hide)\nG1 X99\n(AXIS,show)\nG4 P2\nM101\n"
                                   "T1 M6\nG43 H1\nG0 X2\nG1 X3\nM2\n")
     tools = [Canon(d).get_tool(i) for i in range(3)]
     p = gcode.load(d + "/t.ngc", tools=tools, initcodes=["G21"])
     check(p.result == 1 and p.error == "" and p.last_line == 16, (p.error, p.last_line))
     points, lines, kinds = p.positions.tolist(), p.lines.tolist(), p.kinds.tolist()
     check(len(points) == len(lines) == len(kinds) == p.n_vertices, "lengths")
-    check([row[:3] for row in points] == p.points.tolist() and p.positions.shape[1] == 9, "three columns hold what only X, Y and Z fill")
+    check([row[:3] for row in points] == p.points.tolist() and p.positions.shape[1] == 9,
+          "three columns hold what only X, Y and Z fill")
     check(kinds[0] == 3 and kinds[1] == 1 and near(points[1][:3], [1, 1, 0]), points[:2])
     arc = [n for n, k in enumerate(kinds) if k == 2]
     check(len(arc) == 32 and all(abs(math.hypot(points[n][0] - 2, points[n][1] - 1) - 1) < 1e-6 for n in arc), len(arc))
     traverse = [points[n][:2] for n, k in enumerate(kinds) if k == 0]
     check(near(traverse[0], [1, 0], 1e-6), f"rotated system: {traverse}")
-    check(abs(p.cutting_length - (1 + 32 * 2 * math.sin(math.pi / 128) + 1 / 25.4)) < 1e-5 and p.dwell_time == 2, p.cutting_length)
-    check(abs(p.cutting_time(5) - p.cutting_length / 5 * 60) < 1e-6 and abs(p.cutting_time(1000) - p.cutting_length / 10 * 60) < 1e-6, "times")
-    check(p.tools == [(len([k for n, k in enumerate(kinds) if lines[n] <= 12]), 1)] and len(p.marks) == 2, (p.tools, p.marks))
+    check(abs(p.cutting_length - (1 + 32 * 2 * math.sin(math.pi / 128) + 1 / 25.4)) < 1e-5 and p.dwell_time == 2,
+          p.cutting_length)
+    check(abs(p.cutting_time(5) - p.cutting_length / 5 * 60) < 1e-6
+          and abs(p.cutting_time(1000) - p.cutting_length / 10 * 60) < 1e-6, "times")
+    check(p.tools == [(len([k for n, k in enumerate(kinds) if lines[n] <= 12]), 1)] and len(p.marks) == 2,
+          (p.tools, p.marks))
     check(near(p.extents[0], [1 - 3 / 25.4 * 0, 0, 0], 2), p.extents)
     open(d + "/turns.ngc", "w").write("G20 F9\nG1 X1 A0\nG1 X2 A5 Y1\nG1 X3 A0\nG1 U2\nM2\n")
     for last, columns in ((4, 4), (5, 7)):
         open(d + "/part.ngc", "w").write("".join(open(d + "/turns.ngc").readlines()[:last]) + "M2\n")
         turns = gcode.load(d + "/part.ngc")
-        check(turns.points.shape[1] == columns and turns.points.tolist() == [row[:columns] for row in turns.positions.tolist()], turns.points.shape)
-        check(turns.positions.tolist()[2][:4] == [2, 1, 0, 5] and turns.positions.tolist()[-1][6] == (2 if columns == 7 else 0), turns.positions.tolist())
+        check(turns.points.shape[1] == columns
+              and turns.points.tolist() == [row[:columns] for row in turns.positions.tolist()], turns.points.shape)
+        check(turns.positions.tolist()[2][:4] == [2, 1, 0, 5]
+              and turns.positions.tolist()[-1][6] == (2 if columns == 7 else 0), turns.positions.tolist())
     stop = gcode.load(d + "/t.ngc", tools=tools, progress=lambda line: True)
     check(stop.result in (0, 1), stop.result)
     open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")
     bad = gcode.load(d + "/bad.ngc")
-    check(bad.fault["line"] == 2 and bad.fault["column"] == 7 and bad.fault["what"] == "Multiple x words on one line", bad.fault)
+    check(bad.fault["line"] == 2 and bad.fault["column"] == 7 and bad.fault["what"] == "Multiple x words on one line",
+          bad.fault)
 
     # Compensation holds moves back: each is told with its own line.
     open(d + "/comp.ngc", "w").write("G21 F100\nG41.1 D2\nG1 X10\nX20\nY20\nG40\nM2\n")
@@ -152,7 +167,8 @@ with tempfile.TemporaryDirectory() as d:
         except KeyboardInterrupt:
             pass
 
-    check(gcode.calc_extents([(1, (0,) * 9, (5,) + (0,) * 8, (0, 0, 1))], [(2, (1, 2, 3) + (0,) * 6, (4, 4, 4) + (0,) * 6, 10., (1, 1, 1))]) ==
+    check(gcode.calc_extents([(1, (0,) * 9, (5,) + (0,) * 8, (0, 0, 1))],
+                             [(2, (1, 2, 3) + (0,) * 6, (4, 4, 4) + (0,) * 6, 10., (1, 1, 1))]) ==
           ([0, 0, 0], [5, 4, 4], [0, 0, 1], [5, 5, 5]), "extents")
     check(gcode.MIN_ERROR == 3 and gcode.MAX_ERROR == -1, "constants")
 done()

@@ -20,7 +20,8 @@ TOOLS = [(i if i < 3 else -1, 0., 0., i * 1., 0., 0., 0., 0., 0., 0., .5, 0., 0.
 
 
 def stat():
-    return SimpleNamespace(tool_table=TOOLS, angular_units=1.0, linear_units=1 / 25.4, axis_mask=0x1ff, block_delete=False)
+    return SimpleNamespace(tool_table=TOOLS, angular_units=1.0, linear_units=1 / 25.4, axis_mask=0x1ff,
+                           block_delete=False)
 
 
 class Canon(GLCanon, StatMixin):
@@ -68,9 +69,11 @@ with tempfile.TemporaryDirectory() as d:
     check(g.positions().dtype.name == "float32" and g.positions()[1].tolist() == [4, 2, 0], g.positions()[:4])
     check(c.min_extents == [1, 2, 0] and near(c.max_extents, [6, 3, 1], 1e-6), (c.min_extents, c.max_extents))
     check(abs(c.g0_length - 1) < 1e-9 and abs(c.g1_length - 3 - math.pi) < .02, (c.g0_length, c.g1_length))
-    check(abs(c.run_time(10) - (c.g1_length / 1 + 1 / 10 + 2)) < 1e-9 and abs(c.run_time(.5) - (c.g1_length + 1) / .5 - 2) < 1e-9, c.run_time(10))
+    check(abs(c.run_time(10) - (c.g1_length / 1 + 1 / 10 + 2)) < 1e-9
+          and abs(c.run_time(.5) - (c.g1_length + 1) / .5 - 2) < 1e-9, c.run_time(10))
     check(c.dwells == [(4, (1, 0, 0), 4, 2, 1, 0)] and c.dwell_time == 2, c.dwells)
-    check(g.spans_for_line(3) == [(1, 3)] and g.spans_for_line(4) == [] and len(g.spans_for_line(5)) == 1, g.spans_for_line(5))
+    check(g.spans_for_line(3) == [(1, 3)] and g.spans_for_line(4) == [] and len(g.spans_for_line(5)) == 1,
+          g.spans_for_line(5))
     check(g.n_moves == len(g.kinds) - 2 and not g.is_empty, g.n_moves)
     try:
         c.traverse
@@ -82,15 +85,19 @@ with tempfile.TemporaryDirectory() as d:
     result, c = preview("T2 M6\nG43 H2\nG0 X1\nG1 Z-1 F9\nM2\n")
     check(c.tool_list == [2] and near([c.zo], [2 * 25.4 / 25.4]), (c.tool_list, c.zo))
     check(near([c.max_extents_notool[2] - c.max_extents[2]], [c.zo]), (c.max_extents, c.max_extents_notool))
-    check(c.program_geometry.tool_number(c.program_geometry.tools[-1]) == 2 and c.program_geometry.tool_number(0) is None, "tools")
+    check(c.program_geometry.tool_number(c.program_geometry.tools[-1]) == 2
+          and c.program_geometry.tool_number(0) is None, "tools")
 
     # Rotation and offsets; extents without the rotation.
     result, c = preview("G10 L2 P1 X1 Y1 R90\nG1 F9 X0 Y0\nX2\nM2\n")
-    check(near(c.max_extents, [1, 3, 0], 1e-6) and near(c.max_extents_zero_rxy[:2], [3, 2], 1e-6), (c.max_extents, c.max_extents_zero_rxy))
+    check(near(c.max_extents, [1, 3, 0], 1e-6) and near(c.max_extents_zero_rxy[:2], [3, 2], 1e-6),
+          (c.max_extents, c.max_extents_zero_rxy))
 
     # Directives in comments.
-    result, c = preview("G1 X1 F9\n(AXIS,hide)\nG1 X50\n(PREVIEW,show)\n(AXIS,notify,look here, please)\nX2\n(AXIS,notify)\nM2\n")
-    check(c.max_extents[0] == 2 and c.notify == 2 and c.notify_message == "(AXIS,notify):2", (c.max_extents, c.notify_message))
+    result, c = preview("G1 X1 F9\n(AXIS,hide)\nG1 X50\n(PREVIEW,show)\n(AXIS,notify,look here, please)\nX2\n"
+                        "(AXIS,notify)\nM2\n")
+    check(c.max_extents[0] == 2 and c.notify == 2 and c.notify_message == "(AXIS,notify):2",
+          (c.max_extents, c.notify_message))
     open(d + "/t.ngc", "w").write("G1 X1 F9\n(AXIS,stop)\nX50\nM2\n")
     c = Canon(d)
     try:
@@ -100,20 +107,24 @@ with tempfile.TemporaryDirectory() as d:
         c.calc_extents()
         check(c.max_extents[0] == 1, c.max_extents)
     # A directive without its value changes nothing, an unreadable one has a default; canon and reader in C++ agree.
-    for text, want in (("XY_Z_POS", (0., 1.5, 0, "")), ("UV_Z_POS", (0., 1.5, 0, "")), ("UV_Z_POS,", (0., 30., 0, "")), ("XY_Z_POS,q", (5 / 25.4, 1.5, 0, "")),
-                       ("notify", (0., 1.5, 1, "(AXIS,notify):1")), ("notify,", (0., 1.5, 1, "(AXIS,notify):1")), ("notify,a,b", (0., 1.5, 1, "a"))):
+    for text, want in (("XY_Z_POS", (0., 1.5, 0, "")), ("UV_Z_POS", (0., 1.5, 0, "")), ("UV_Z_POS,", (0., 30., 0, "")),
+                       ("XY_Z_POS,q", (5 / 25.4, 1.5, 0, "")), ("notify", (0., 1.5, 1, "(AXIS,notify):1")),
+                       ("notify,", (0., 1.5, 1, "(AXIS,notify):1")), ("notify,a,b", (0., 1.5, 1, "a"))):
         _, c = preview(f"G1 X1 F9\n(AXIS,{text})\nM2\n", is_foam=1)
         p = gcode.load(d + "/t.ngc", d + "/p2.var", ["G20"])
         both = [(c.foam_z, c.foam_w, c.notify, c.notify_message),
-                (0. if p.foam_z is None else p.foam_z, 1.5 if p.foam_w is None else p.foam_w, p.notify, p.notify_message)]
+                (0. if p.foam_z is None else p.foam_z, 1.5 if p.foam_w is None else p.foam_w, p.notify,
+                 p.notify_message)]
         check(both == [want] * 2, f"{text}: {both}")
     result, c = preview("(AXIS,XY_Z_POS,2)\n(AXIS,UV_Z_POS,x)\nG1 F9 X1 U2\nG21\n(AXIS,UV_Z_POS,25.4)\nM2\n", is_foam=1)
-    check(c.foam_z == 2 and near([c.foam_w], [1.0]) and c.program_geometry.positions(1).shape == c.program_geometry.positions().shape, (c.foam_z, c.foam_w))
+    check(c.foam_z == 2 and near([c.foam_w], [1.0])
+          and c.program_geometry.positions(1).shape == c.program_geometry.positions().shape, (c.foam_z, c.foam_w))
     check(c.min_extents[2] == 1 and c.max_extents[2] == 2, (c.min_extents, c.max_extents))
 
     # Rotary axes are drawn where the geometry says so, extents stay raw.
     result, c = preview("G1 F9 Y1\nA90\nM2\n", geometry="!XYZA")
-    check(near(c.program_geometry.positions()[-1], [0, 0, 1], 1e-5) and near(c.max_extents, [0, 1, 0]), c.program_geometry.positions()[-1])
+    check(near(c.program_geometry.positions()[-1], [0, 0, 1], 1e-5) and near(c.max_extents, [0, 1, 0]),
+          c.program_geometry.positions()[-1])
     check(c.program_geometry.n_vertices == 12, c.program_geometry.n_vertices)
     result, c = preview("G1 F9 X1\nM2\n", geometry="-XYZ")
     check(c.program_geometry.positions()[-1].tolist() == [-1, 0, 0], c.program_geometry.positions()[-1])
@@ -122,7 +133,8 @@ with tempfile.TemporaryDirectory() as d:
     text = "G0 X1\nG1 X2 F9\nG4P1\nT1M6\nG43H1\nG0Z3\nG33.1 Z1 K.1\nG2X4I1\nG1 Z0\nM101P2\nM2\n".replace("G33.1 Z1 K.1\n", "")
     (r1, a), (r2, b) = preview(text), preview(text, Batches)
     check(r1 == r2 and a.program_geometry.kinds.tolist() == b.program_geometry.kinds.tolist(), (r1, r2))
-    check(a.program_geometry.lines.tolist() == b.program_geometry.lines.tolist() and a.run_time(3) == b.run_time(3), "same lines")
+    check(a.program_geometry.lines.tolist() == b.program_geometry.lines.tolist() and a.run_time(3) == b.run_time(3),
+          "same lines")
     check(abs(a.program_geometry.positions() - b.program_geometry.positions()).max() == 0 and b.seen, b.seen)
     check(preview("M2\n")[1].max_extents == [0, 0, 0], "an empty program")
 
@@ -133,13 +145,16 @@ s.change_tool(2)
 check(s.tools[0] == TOOLS[2] and s.get_tool(2) == TOOLS[2], "a tool in the spindle stays in the table")
 s.change_tool(9)
 check(s.tools[0][0] == -1, "no tool")
-check(s.get_axis_mask() == 0x1ff and s.get_external_length_units() == 1 / 25.4 and s.get_block_delete() is False, "machine")
+check(s.get_axis_mask() == 0x1ff and s.get_external_length_units() == 1 / 25.4 and s.get_block_delete() is False,
+      "machine")
 r = StatMixin(stat(), True)
 r.change_tool(2)
 check(r.tools[0] == TOOLS[2] and r.tools[2] == TOOLS[0] and r.get_tool(2) == TOOLS[2], "a random changer swaps")
 
 # The writer: what it leaves out stays within the tolerance, arcs are found, and it runs.
-points = [(math.cos(t / 40) * 3, math.sin(t / 40) * 3, 0.) for t in range(60)] + [(x / 10, 3., 0.) for x in range(5, -40, -1)]
+points = [(math.cos(t / 40) * 3, math.sin(t
+                                          / 40) * 3, 0.) for t in range(60)] + [(x / 10, 3., 0.)
+                                                                                for x in range(5, -40, -1)]
 pieces = simplify(points, .001, 17)
 check(len(pieces) < 20 and any(p[0] == "arc" for p in pieces) and pieces[-1][1] == points[-1], pieces)
 lines = []
@@ -155,7 +170,8 @@ w.set_plane(18)
 w.exactpath()
 w.home()
 w.end()
-check(lines[0] == "G20" and lines[-1] == "M2" and "G64 P0.01" in lines and "G61" in lines and "G18" in lines and len(lines) < 40, lines)
+check(lines[0] == "G20" and lines[-1] == "M2" and "G64 P0.01" in lines and "G61" in lines and "G18" in lines
+      and len(lines) < 40, lines)
 teeth = [(n / 100, 0., -.1 * (n % 2)) for n in range(5000)]
 check([p[1] for p in simplify(teeth, .001, 18)] == teeth[1:], "thousands of teeth of one height")
 done()

@@ -26,7 +26,8 @@ check("Requested tool 5 not found in the tool table" in rejected, rejected)
 check("Requested tool 2 not found in the tool table" in rs274("T2\nM2\n", tools=table).err.splitlines(), "unknown tool")
 run = rs274("T1 M6\nM61 Q3\nG10 L1 P1 Z5\nM2\n", tools=table)
 check([v[:2] for n, v in run.calls if n == "SET_TOOL_TABLE_ENTRY"] == [[1, 1]], "not the tool in the spindle")
-run = rs274("T1 M6\n(print,#5400 #5403 #5410)\nG10 L1 P1 Z5 R1 I11 J12 Q4\n(print,#5403 #5410 #5411 #5412 #5413)\nM2\n", tools=table)
+run = rs274("T1 M6\n(print,#5400 #5403 #5410)\nG10 L1 P1 Z5 R1 I11 J12 Q4\n(print,#5403 #5410 #5411 #5412 #5413)\nM2\n",
+            tools=table)
 check(run.printed[2] == "1.000000 12.345600 6.000000", run.printed)
 entries = [v for n, v in run.calls if n == "SET_TOOL_TABLE_ENTRY"]
 check(len(entries) == 2 and entries[0][:2] == [1, 1] and entries[1][:2] == [0, 1], entries)

@@ -47,9 +47,12 @@ a = Client()
 print("== before HELLO")
 a.say("GET ECHO", "SET ECHO OFF", "HELLO EMC me", "HELLO WRONG me 1.0", "hello emc me 1.0")
 print("== after")
-a.say("GET ECHO", "SET VERBOSE ON", "SET ECHO OFF", "GET ENABLE", "SET QMODE RUN", "SET ENABLE WRONG", "SET ENABLE EMCTOO", "GET ENABLE", "SET", "GET", "SET NOSUCH 1", "GET NOSUCH", "GET CONFIG",
-      "SET CONFIG x", "GET COMM_MODE", "SET COMM_MODE binary", "GET COMM_MODE", "GET COMM_PROT", "GET INIFILE", "SET INIFILE x", "GET INI", "GET DEBUG", "SET DEBUG 0", "GET POLLRATE", "SET POLLRATE x",
-      "SET POLLRATE 0.1", "GET POLLRATE", "GET AUTOTAGID", "HELP QUIT", "HELP NOSUCH", "SET ECHO ON", "GET ECHO\r\nGET ECHO", "SET ECHO OFF")
+a.say("GET ECHO", "SET VERBOSE ON", "SET ECHO OFF", "GET ENABLE", "SET QMODE RUN", "SET ENABLE WRONG",
+      "SET ENABLE EMCTOO", "GET ENABLE", "SET", "GET", "SET NOSUCH 1", "GET NOSUCH", "GET CONFIG",
+      "SET CONFIG x", "GET COMM_MODE", "SET COMM_MODE binary", "GET COMM_MODE", "GET COMM_PROT", "GET INIFILE",
+      "SET INIFILE x", "GET INI", "GET DEBUG", "SET DEBUG 0", "GET POLLRATE", "SET POLLRATE x",
+      "SET POLLRATE 0.1", "GET POLLRATE", "GET AUTOTAGID", "HELP QUIT", "HELP NOSUCH", "SET ECHO ON",
+      "GET ECHO\r\nGET ECHO", "SET ECHO OFF")
 print("== a second client takes over")
 b = Client()
 b.say("HELLO EMC you 1.0", "SET ECHO OFF", "SET ENABLE EMCTOO")
@@ -57,9 +60,11 @@ a.say("GET ENABLE", "SET QMODE RUN", "SHUTDOWN", "SET ENABLE EMCTOO")
 print("== the queue")
 for name, x in (("one", 1), ("two", 2), ("three", 3)):
     Path(f"{name}.ngc").write_text(f"G21 G90 G1 F6000 X{x}\nG0 Y{x}\n(MSG,{name} ran)\nM2\n")
-a.say("SET PGMADD 5 0 0 0 0 1 two.ngc 100 100 1", "SET PGMADD 1 40 0 0 0 2 one.ngc 50 80 1", "SET PGMADD 9 0 7 8 0 0 three.ngc 100 100 2", "SET PGMADD 1 2 3", "SET PGMADD 1 0 0 0 0 10 x 1 1 1")
+a.say("SET PGMADD 5 0 0 0 0 1 two.ngc 100 100 1", "SET PGMADD 1 40 0 0 0 2 one.ngc 50 80 1",
+      "SET PGMADD 9 0 7 8 0 0 three.ngc 100 100 2", "SET PGMADD 1 2 3", "SET PGMADD 1 0 0 0 0 10 x 1 1 1")
 show = lambda *lines: [print("> " + line + ":", a.raw(line.encode() + b"\r")) for line in lines]
-show("GET PGMALL", "GET PGMBYID 40", "GET PGMBYINDEX 1", "GET PGMBYID 41", "GET PRIORITYBYID 40", "GET PRIORITYBYINDEX 2", "SET PRIORITYBYID 40 7", "GET PGMBYINDEX 0")
+show("GET PGMALL", "GET PGMBYID 40", "GET PGMBYINDEX 1", "GET PGMBYID 41", "GET PRIORITYBYID 40",
+     "GET PRIORITYBYINDEX 2", "SET PRIORITYBYID 40 7", "GET PGMBYINDEX 0")
 a.say("SET PRIORITYBYINDEX 1 1", "SET DELETEBYID 99", "SET DELETEBYINDEX 9", "GET QMODE", "SET QMODE RESUME")
 print("status:", re.sub(rb"\d+\r", b"CRC\r", a.raw(b"GET QSTATUS\r")))
 print("== it runs")
@@ -94,9 +99,11 @@ sleep(3)
 print(s.interp_state == INTERP_IDLE, *[a.raw(b"GET QMODE\r")])
 print("== a job that is stopped ends the queue")
 Path("long.ngc").write_text("G21 G90 G1 F60 X9\nX0\nM2\n")
-for what, stop in (("abort", c.abort), ("machine off", lambda: c.state(STATE_OFF)), ("emergency stop", lambda: c.state(STATE_ESTOP)),
+for what, stop in (("abort", c.abort), ("machine off", lambda: c.state(STATE_OFF)),
+                   ("emergency stop", lambda: c.state(STATE_ESTOP)),
                    ("machine off and on", lambda: (c.state(STATE_OFF), c.wait_complete(), c.state(STATE_ON)))):
-    a.say("SET QMODE STOP", "SET PGMADD 1 0 0 0 0 1 long.ngc 100 100 1", "SET PGMADD 2 0 0 0 0 1 one.ngc 100 100 1", "SET QMODE RUN")
+    a.say("SET QMODE STOP", "SET PGMADD 1 0 0 0 0 1 long.ngc 100 100 1", "SET PGMADD 2 0 0 0 0 1 one.ngc 100 100 1",
+          "SET QMODE RUN")
     if poll().task_state != STATE_ON:
         on(home=False)
         a.say("SET QMODE RUN")
@@ -111,7 +118,8 @@ for what, stop in (("abort", c.abort), ("machine off", lambda: c.state(STATE_OFF
         on(home=False)
     sleep(3)
     clock.wait_until(lambda: b"RUN" not in a.raw(b"GET QMODE\r"), 100, 0.1)  # its sockets are served in wall time
-    print(f"{what}: {'stands' if poll().interp_state == INTERP_IDLE else 'goes on'}", *[a.raw(b"GET QMODE\r")], messages()[:1])
+    print(f"{what}: {'stands' if poll().interp_state == INTERP_IDLE else 'goes on'}", *[a.raw(b"GET QMODE\r")],
+          messages()[:1])
 print("== a job with a mistake ends it too; a command of another program that is refused does not")
 a.say("SET QMODE STOP")
 Path("bad.ngc").write_text("G21 G90 G1 F600 X1\nG1 X2 F-1\nM2\n")

@@ -19,12 +19,14 @@ class Screen:
 
 
 def ask(*words):
-    done = subprocess.run(["axis-remote", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+    done = subprocess.run(["axis-remote", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True, timeout=60)
     return done.returncode, done.stderr.splitlines()[:1] if done.returncode != 99 else "usage"
 
 
 def conversation():
-    for words in (["--ping"], ["a/part.ngc"], ["-r"], ["--mdi", "G0 X1 Y[2+3]"], ["-c"], ["-h"], ["-r", "-c"], [], ["a", "b"], ["-m"], ["--reload", "x"], ["-x"]):
+    for words in (["--ping"], ["a/part.ngc"], ["-r"], ["--mdi", "G0 X1 Y[2+3]"], ["-c"], ["-h"], ["-r", "-c"], [],
+                  ["a", "b"], ["-m"], ["--reload", "x"], ["-x"]):
         print(words, *ask(*words), log.pop() if log else "")
     busy.append(1)
     for words in (["b.ngc"], ["-m", "G0 X2"], ["-r"], ["-q"], ["-c"], ["-p"]):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Two minutes, or SOAK_HOURS, of a busy machine (a program in a loop, offsets, tool changes, messages, three clients that
-# poll and read every attribute, one that dies again and again): none of the processes grows in memory or in open files.
+# Two minutes, or SOAK_HOURS, of a busy machine (a program in a loop, offsets, tool changes, messages, three clients
+# that poll and read every attribute, one that dies again and again): none of the processes
+# grows in memory or in open files.
 import os
 import re
 import time
@@ -30,13 +31,15 @@ while True:
 
 on()
 children = [clock.spawn(["/usr/bin/python3", "-c", CLIENT], f"client{n}", priority=600) for n in range(3)]
-program("o1 while [1]\nG10 L2 P1 X0.25\nT1 M6\nT2 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0\n(DEBUG, #5420)\no1 endwhile\nM2\n")
+program("o1 while [1]\nG10 L2 P1 X0.25\nT1 M6\nT2 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0\n(DEBUG, "
+        "#5420)\no1 endwhile\nM2\n")
 c.auto(AUTO_RUN, 0)
 sleep(20)
 looks, errors, log = [sizes(NAMES)], 0, linuxcnc.message_log()
 for n in range(ROUNDS):
     sleep(10)
-    short = clock.spawn(["/usr/bin/python3", "-c", "import linuxcnc; linuxcnc.stat().poll(); linuxcnc.command().debug(0)"], "short", priority=600)
+    short = clock.spawn(["/usr/bin/python3", "-c",
+                         "import linuxcnc; linuxcnc.stat().poll(); linuxcnc.command().debug(0)"], "short", priority=600)
     clock.wait_until(lambda: short.poll() is not None, 60)
     errors += sum(m["kind"] in (OPERATOR_ERROR, NML_ERROR) for m in log.poll())
     if n % (ROUNDS // LOOKS) == ROUNDS // LOOKS - 1:
@@ -53,7 +56,8 @@ looks = [looks[(len(looks) - 1) * n // 3] for n in range(4)]
 first = looks[0]
 # What leaks grows from third to third; a page touched for the first time does so once.
 grown = {re.sub(r"\d+$", "", n): [l[n] for l in looks] for n in first
-         if all(n in l for l in looks) and (all(b[n][0] - a[n][0] > 150 for a, b in zip(looks, looks[1:])) or looks[-1][n][1] > first[n][1] + 2)}
+         if all(n in l for l in looks)
+         and (all(b[n][0] - a[n][0] > 150 for a, b in zip(looks, looks[1:])) or looks[-1][n][1] > first[n][1] + 2)}
 print(len(first), sorted({re.sub(r"\d+$", "", n) for n in first}), "grown:", grown)
 if ROUNDS > 12:
     print((n + 1) / 360, "hours:", {n: [l.get(n) for l in looks] for n in first})

@@ -11,7 +11,8 @@ from mill import *
 def run_tool(*words, text=None):
     """What a tool prints; time goes on while it runs."""
     clock.suspend()
-    done = subprocess.run(words, input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60, env={k: v for k, v in os.environ.items() if k != "KERF_CLOCK_SLOT"})
+    done = subprocess.run(words, input=text, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60,
+                          env={k: v for k, v in os.environ.items() if k != "KERF_CLOCK_SLOT"})
     clock.resume()
     return f"{done.returncode} {done.stdout}"
 
@@ -29,13 +30,16 @@ print(xyz(3))
 mdi("T1 M6 G43")
 mdi("G54 S100")
 lines = run_tool("linuxcnctop", "-ini", "mill.ini", "-t").split("\n")
-wanted = ("task_mode", "task_state", "exec_state", "interp_state", "state", "motion_mode", "motion_type", "program_units", "kinematics_type", "gcodes", "mcodes", "position", "tool_in_spindle", "file", "estop", "joint_position")
+wanted = ("task_mode", "task_state", "exec_state", "interp_state", "state", "motion_mode", "motion_type",
+          "program_units", "kinematics_type", "gcodes", "mcodes", "position", "tool_in_spindle", "file", "estop",
+          "joint_position")
 print("linuxcnctop:", lines[0].split()[0])
 for line in [lines[0][2:]] + lines[1:]:
     if line[:20].strip() in wanted:
         print(line.rstrip())
 skipped = {"poll", "tool_table", "axis", "joint", "gettaskfile"}
-print("skipped:", not skipped & {line[:20].strip() for line in lines}, "all of one width:", all(len(line) <= 80 for line in lines))
+print("skipped:", not skipped & {line[:20].strip() for line in lines}, "all of one width:",
+      all(len(line) <= 80 for line in lines))
 
 print("== linuxcnclcd")
 server = socket.create_server(("127.0.0.1", 0))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# kill -9 of halui, of a Python client and of linuxcncrsh, each in the middle of its work, in every tenth of a program with tool
-# changes, probing and spindles: the program goes on to its end with every output as often as alone, nobody waits for the dead,
-# and of halui, a part of the machine, the operator is told.
+# kill -9 of halui, of a Python client and of linuxcncrsh, each in the middle of its work, in every tenth of a program
+# with tool changes, probing and spindles: the program goes on to its end with every output as often as alone, nobody
+# waits for the dead, and of halui, a part of the machine, the operator is told.
 import time
 
 import hal
@@ -9,8 +9,8 @@ import rsh
 import session
 from mill import *
 
-PINS = ("spindle.0.on", "spindle.0.forward", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change",
-        "iocontrol.0.tool-prepare", "motion.digital-out-00")
+PINS = ("spindle.0.on", "spindle.0.forward", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist",
+        "iocontrol.0.tool-change", "iocontrol.0.tool-prepare", "motion.digital-out-00")
 STEPS = 10
 CLIENT = """
 import linuxcnc
@@ -49,7 +49,8 @@ class Shell:
         self.client = rsh.Client(self.server)
 
     def act(self):
-        self.client.send("GET ABS_ACT_POS", "GET PROGRAM_LINE", "SET FEED_OVERRIDE 100")    # and never waits for the answers
+        # and never waits for the answers
+        self.client.send("GET ABS_ACT_POS", "GET PROGRAM_LINE", "SET FEED_OVERRIDE 100")
 
     def kill(self):
         self.server.process.kill()
@@ -62,7 +63,8 @@ class Halui:
 
     def start(self):
         if not session.processes("halui"):
-            if clock.run(["halcmd", "loadusr", "-Wn", "halui", "halui", "-ini", "mill.ini"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
+            if clock.run(["halcmd", "loadusr", "-Wn", "halui", "halui", "-ini", "mill.ini"], stdout=subprocess.DEVNULL,
+                         stderr=subprocess.DEVNULL).returncode:
                 print("halui did not come back")
         self.on = False
 

@@ -23,7 +23,8 @@ MISTAKES = {
     "after a queue buster": ("G0 X2\nM66 P0 L0\nG1 X[1/0]\n", 2),
     "behind a dwell": ("G0 X2\nG4 P0.5\nG1 X[1/0]\n", 2),
     "in a sub": (SUB.format("G1 X[1/0]") + "o<inner> call\nG0 X8\n", 2),
-    "in a sub's sub": (SUB.format("G2 X10 R1 F100").replace("inner", "deep") + "o<inner> sub\no<deep> call\nG0 X6\no<inner> endsub\no<inner> call\n", 2),
+    "in a sub's sub": (SUB.format("G2 X10 R1 F100").replace("inner", "deep")
+                       + "o<inner> sub\no<deep> call\nG0 X6\no<inner> endsub\no<inner> call\n", 2),
     "in a loop": ("#1=0\no1 while [#1 LT 5]\n#1=[#1+1]\nG0 X#1\nG0 Y[1/[3-#1]]\no1 endwhile\n", 3),
     "no such sub": ("G0 X2\no<nowhere> call\nG0 X7\n", 2),
     "no such tool": ("G0 X2\nT99 M6\nG0 X7\n", 2),
@@ -62,7 +63,8 @@ for name, (text, x) in MISTAKES.items():
           + ("" if s.call_level == 0 else f" LEVEL {s.call_level}"))
     if name == "cutter compensation":  # stays on, as documented
         mdi("G40")
-    if s.task_state == STATE_ON and (run("G0 X3\nM2\n") != RCS_DONE or abs(poll().position[0] - 3) > 1e-6 or not off() or messages()):
+    if (s.task_state == STATE_ON
+            and (run("G0 X3\nM2\n") != RCS_DONE or abs(poll().position[0] - 3) > 1e-6 or not off() or messages())):
         print("    the next program does not run", xyz())
 # MDI: what was queued behind the mistake is dropped.
 mdi("G0 X0")

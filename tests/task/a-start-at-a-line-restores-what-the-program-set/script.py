@@ -43,15 +43,18 @@ G1 X[#<_kept>] Y9
 M2
 """
 LINES = TEXT.splitlines()
-START = ("M61 Q0 G49 G54 G92.1 M5 M9", "G10 L2 P1 X0 Y0 Z0 R0", "G10 L2 P2 X0 Y0 Z0 R0", "G21 G90 G64 P0.01 G17 G94 F100 S0", "G0 X0 Y0 Z100")
+START = ("M61 Q0 G49 G54 G92.1 M5 M9", "G10 L2 P1 X0 Y0 Z0 R0", "G10 L2 P2 X0 Y0 Z0 R0",
+         "G21 G90 G64 P0.01 G17 G94 F100 S0", "G0 X0 Y0 Z100")
 
 
 def state():
     poll()
     return {
-        "place": tuple(round(v, 4) + 0.0 for v in s.position[:3]), "tool": s.tool_in_spindle, "spindle": s.spindle[0]["speed"], "flood": s.flood, "mist": s.mist,
-        "g5x": (s.g5x_index, s.g5x_offset[:2]), "g92": s.g92_offset[:2], "length": round(s.tool_offset[2], 4), "units": s.program_units,
-        "codes": tuple(g for g in s.gcodes[1:] if g not in (-1, 0, 10, 20)), "feed": round(s.settings[1], 3), "path": round(s.settings[3], 4)}
+        "place": tuple(round(v, 4) + 0.0 for v in s.position[:3]), "tool": s.tool_in_spindle,
+        "spindle": s.spindle[0]["speed"], "flood": s.flood, "mist": s.mist,
+        "g5x": (s.g5x_index, s.g5x_offset[:2]), "g92": s.g92_offset[:2], "length": round(s.tool_offset[2], 4),
+        "units": s.program_units, "codes": tuple(g for g in s.gcodes[1:] if g not in (-1, 0, 10, 20)),
+        "feed": round(s.settings[1], 3), "path": round(s.settings[3], 4)}
 
 
 def prepare():

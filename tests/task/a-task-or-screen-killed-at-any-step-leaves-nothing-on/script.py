@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""script.py STEP FOLDER VICTIM: kills task or the screen, which is this program, STEP times 0.35 s after the program's start; FOLDER/seen says what became of the outputs."""
+"""script.py STEP FOLDER VICTIM: kills task or the screen, which is this program, STEP times 0.35 s after the program's
+start; FOLDER/seen says what became of the outputs."""
 import os
 import signal
 import sys
@@ -53,7 +54,8 @@ left = high()
 rose, at, before = set(), axes(), None
 try:
     while True:
-        if sys.argv[3] != "screen" or "motion.motion-enabled" not in left:     # until the launcher sees the screen's death the program goes on
+        # until the launcher sees the screen's death the program goes on
+        if sys.argv[3] != "screen" or "motion.motion-enabled" not in left:
             rose |= high() - left
         left, before, at = high(), at, axes()
         if sys.argv[3] == "screen" and "motion.motion-enabled" in left:
@@ -61,7 +63,8 @@ try:
         clock.sleep(0.001)
 except RuntimeError:        # the pins are gone
     pass
-(folder / "seen.new").write_text(f"line {line}: rose {sorted(rose)}, on at the end {sorted(left)}, motion {'goes on' if at != before else 'stands'}; "
+(folder / "seen.new").write_text(f"line {line}: rose {sorted(rose)}, on at the end {sorted(left)}, motion "
+                                 f"{'goes on' if at != before else 'stands'}; "
                                  f"at the start {started} {len(interrupted)} told\n")
 os.rename(folder / "seen.new", folder / "seen")
 os._exit(0)

@@ -65,4 +65,5 @@ for number, text in enumerate(LINES, 1):
     x, y = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
     shown = [v - o - t for v, o, t in zip((x, y, z), s.g92_offset, s.tool_offset)]
     ok = system == s.g5x_index and all(abs(a - b) < 1e-4 for a, b in zip(shown, here))
-    print(number, text, f"G5x {s.g5x_index} G92 {s.g92_offset[0]:g} tool {s.tool_offset[2]:g} R {s.rotation_xy:g}", "agrees" if ok else f"status {shown} interpreter {system} {here}")
+    print(number, text, f"G5x {s.g5x_index} G92 {s.g92_offset[0]:g} tool {s.tool_offset[2]:g} R {s.rotation_xy:g}",
+          "agrees" if ok else f"status {shown} interpreter {system} {here}")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# [RS274NGC]ON_ABORT_COMMAND runs once after each stop and hears why; it moves nothing, what it sets is in force, and one
-# that is wrong is told and stops nothing else.
+# [RS274NGC]ON_ABORT_COMMAND runs once after each stop and hears why; it moves nothing, what it sets is in force, and
+# one that is wrong is told and stops nothing else.
 import hal
 from mill import *
 
@@ -38,12 +38,13 @@ for name, stop in STOPS.items():
     stop()
     sleep(0.01)
     there = xyz(0)
-    print(f"{name}:", heard(), "at rest:", max(abs(a - b) for a, b in zip(there, xyz(0))) <= 1, "spindle", poll().spindle[0]["enabled"],
-          "G92", s.g92_offset[0], s.interp_state == INTERP_IDLE)
+    print(f"{name}:", heard(), "at rest:", max(abs(a - b) for a, b in zip(there, xyz(0))) <= 1, "spindle",
+          poll().spindle[0]["enabled"], "G92", s.g92_offset[0], s.interp_state == INTERP_IDLE)
     hal.set_p("joint.1.neg-lim-sw-in", "0")
     if name == "chain":
         hal.set_p("iocontrol.0.emc-enable-in", "1")
-print("reset:", (c.state(STATE_ESTOP), c.wait_complete(), heard(), c.state(STATE_ESTOP_RESET), c.wait_complete(), heard())[2::3])
+print("reset:", (c.state(STATE_ESTOP), c.wait_complete(), heard(), c.state(STATE_ESTOP_RESET), c.wait_complete(),
+                 heard())[2::3])
 on(home=False)
 heard()
 print("a mistake that is read:", run("G1 X[1/0]\nM2\n"), heard())

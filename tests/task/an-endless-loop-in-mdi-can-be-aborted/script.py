@@ -7,7 +7,8 @@ from mill import *
 
 Path("moving.ngc").write_text("o<moving> sub\nG91\no1 while [1]\nG1 X1 F3000\nX-1\no1 endwhile\no<moving> endsub\n")
 Path("silent.ngc").write_text("o<silent> sub\no1 while [1]\n#1=[#1+1]\no1 endwhile\no<silent> endsub\n")
-Path("long.ngc").write_text("o<long> sub\nG91\no1 repeat [4000]\nG1 X.001 F3000\no1 endrepeat\nG90\no<long> endsub [7]\n")
+Path("long.ngc").write_text("o<long> sub\nG91\no1 repeat [4000]\nG1 X.001 F3000\no1 endrepeat\nG90\n"
+                            "o<long> endsub [7]\n")
 on()
 for name in ("moving", "silent"):
     mdi("G90 G0 X0 Y0")

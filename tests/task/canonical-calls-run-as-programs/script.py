@@ -30,10 +30,13 @@ STRAIGHT_FEED(0, 20, 0, 0, 0, 0)
 END = "FLOOD_OFF()\nSTOP_SPINDLE_TURNING(0)\nSET_G5X_OFFSET(1,0,0,0,0,0,0)\nUSE_TOOL_LENGTH_OFFSET(0 0 0 0 0 0 0 0 0)\nPROGRAM_END()\nON_RESET()\n"
 print("at start:", told())
 on()
-print("run", run(PART + END), at(), "tool", s.tool_in_spindle, "spindle", s.spindle[0]["enabled"], "flood", s.flood, told())
-print("without PROGRAM_END", run("SET_FEED_RATE(600)\nSTRAIGHT_FEED(5,0,0,0,0,0)\nSTRAIGHT_FEED(5,0.01,0,0,0,0)\n"), at(), told())
+print("run", run(PART + END), at(), "tool", s.tool_in_spindle, "spindle", s.spindle[0]["enabled"], "flood",
+      s.flood, told())
+print("without PROGRAM_END", run("SET_FEED_RATE(600)\nSTRAIGHT_FEED(5,0,0,0,0,0)\nSTRAIGHT_FEED(5,0.01,0,0,0,0)\n"),
+      at(), told())
 
-print("mdi", mdi("SET_G5X_OFFSET(1, 0, 3, 0, 0, 0, 0)"), mdi("STRAIGHT_TRAVERSE(1, 2, 3, 0, 0, 0)"), at(), s.g5x_index, told())
+print("mdi", mdi("SET_G5X_OFFSET(1, 0, 3, 0, 0, 0, 0)"), mdi("STRAIGHT_TRAVERSE(1, 2, 3, 0, 0, 0)"), at(),
+      s.g5x_index, told())
 print("mdi that is G-code", mdi("G0 X0"), at(), told(), s.interpreter_errcode)
 print("mdi beyond the limits", mdi("STRAIGHT_TRAVERSE(1000, 2, 3, 0, 0, 0)"), at(), told())
 print("mdi again", mdi("SET_G5X_OFFSET(1, 0, 0, 0, 0, 0, 0)"), mdi("STRAIGHT_TRAVERSE(0, 0, 0, 0, 0, 0)"), at(), told())
@@ -45,11 +48,13 @@ print("from line 10", c.wait_complete(60), at(), "tool", s.tool_in_spindle, told
 program(PART + "DWELL(100)\n" + END)
 c.auto(AUTO_RUN, 0)
 need(lambda s: s.motion_line == 13, "arc")
-print("in the arc:", [g for g in s.gcodes[1:] if g in (20, 30, 210, 550, 430)], s.settings[1], "line", s.motion_line, s.spindle[0]["enabled"], s.flood)
+print("in the arc:", [g for g in s.gcodes[1:] if g in (20, 30, 210, 550, 430)], s.settings[1], "line", s.motion_line,
+      s.spindle[0]["enabled"], s.flood)
 c.abort()
 c.wait_complete()
 idle()
-print("aborted: spindle", s.spindle[0]["enabled"], "flood", s.flood, "system", s.g5x_index, [round(v, 3) for v in s.g5x_offset[:3]], told())
+print("aborted: spindle", s.spindle[0]["enabled"], "flood", s.flood, "system", s.g5x_index,
+      [round(v, 3) for v in s.g5x_offset[:3]], told())
 print("run after it", run(PART + END), at(), told())
 
 for mistake in ("STRAIGHT_FED(1,0,0,0,0,0)", "SET_FEED_RATE(0)\nSTRAIGHT_FEED(1,0,0,0,0,0)"):

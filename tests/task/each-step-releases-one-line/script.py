@@ -5,7 +5,8 @@ from mill import *
 
 def show(what):
     poll()
-    print(f"{what:8} interp {s.interp_state} task_paused {s.task_paused} paused {s.paused} stepping {s.single_stepping} line {s.current_line}", xyz(2), messages())
+    print(f"{what:8} interp {s.interp_state} task_paused {s.task_paused} paused {s.paused} stepping "
+          f"{s.single_stepping} line {s.current_line}", xyz(2), messages())
 
 
 on()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-132: the tool table or the parameter file can not be written (a full disk, rights; here a folder stands in the way): the
-# operator is told, once until it works again, the old file stays, and the next save has everything.
+# FP-132: the tool table or the parameter file can not be written (a full disk, rights; here a folder stands in the
+# way): the operator is told, once until it works again, the old file stays, and the next save has everything.
 import os
 from mill import *
 

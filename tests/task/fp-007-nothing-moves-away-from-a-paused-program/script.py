@@ -8,7 +8,8 @@ from mill import *
 
 R = random.Random(7)
 on()
-TEXT = "G21 G90 G64 P0.01 F1200\nM3 S800\n" + "".join(f"G1 X{10 * (n % 2)} Y{n / 2} Z{-(n % 3)}\n" for n in range(1, 30)) + "M2\n"
+TEXT = "G21 G90 G64 P0.01 F1200\nM3 S800\n" + "".join(f"G1 X{10 * (n % 2)} Y{n / 2} Z{-(n % 3)}\n"
+                                                      for n in range(1, 30)) + "M2\n"
 hal.set_p("axis.z.jog-enable", "1")
 hal.set_p("axis.z.jog-scale", "1")
 hal.set_p("joint.0.jog-enable", "1")

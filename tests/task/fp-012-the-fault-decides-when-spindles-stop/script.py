@@ -4,7 +4,8 @@ import hal
 from mill import *
 
 COAST = "sum2.0.in1"
-FAULTS = {"limit": ("joint.0.neg-lim-sw-in", "1"), "amplifier": ("joint.1.amp-fault-in", "1"), "following error": (COAST, "5")}
+FAULTS = {"limit": ("joint.0.neg-lim-sw-in", "1"), "amplifier": ("joint.1.amp-fault-in", "1"),
+          "following error": (COAST, "5")}
 
 
 def on_and_turning():

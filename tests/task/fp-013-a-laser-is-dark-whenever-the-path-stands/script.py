@@ -42,7 +42,8 @@ for joints in (0, 1):
         seen.append((hal.get_value("motion.current-vel") > 1, power()))
     c.jog(JOG_STOP, joints, 1)
     until(lambda s: hal.get_value("motion.current-vel") == 0)
-    print("jog of", "joints" if joints else "axes", "M3 in force", s.spindle[0]["enabled"], "moves", any(m for m, _ in seen), "power", max(p for _, p in seen))
+    print("jog of", "joints" if joints else "axes", "M3 in force", s.spindle[0]["enabled"], "moves",
+          any(m for m, _ in seen), "power", max(p for _, p in seen))
 c.abort()
 c.wait_complete()
 print("after an abort:", power(), poll().spindle[0]["enabled"])

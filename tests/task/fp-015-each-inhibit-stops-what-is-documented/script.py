@@ -53,9 +53,12 @@ def start_offset():
 
 
 counts = offset = 0
-MOTIONS = {"program, feed": lambda: start_program("G1 F900 X300\n"), "program, rapid": lambda: start_program("G0 X300\n"), "MDI": start_mdi,
-           "joint jog": lambda: start_jog(1), "axis jog": lambda: start_jog(0), "wheel": start_wheel, "homing": start_homing, "offset": start_offset}
-HOLDS = {"motion.feed-hold": (1, 0), "motion.feed-inhibit": (1, 0), "motion.adaptive-feed": (0, 1), "spindle.0.inhibit": (1, 0), "motion.jog-inhibit": (1, 0),
+MOTIONS = {"program, feed": lambda: start_program("G1 F900 X300\n"),
+           "program, rapid": lambda: start_program("G0 X300\n"), "MDI": start_mdi,
+           "joint jog": lambda: start_jog(1), "axis jog": lambda: start_jog(0), "wheel": start_wheel,
+           "homing": start_homing, "offset": start_offset}
+HOLDS = {"motion.feed-hold": (1, 0), "motion.feed-inhibit": (1, 0), "motion.adaptive-feed": (0, 1),
+         "spindle.0.inhibit": (1, 0), "motion.jog-inhibit": (1, 0),
          "motion.jog-stop": (1, 0), "motion.homing-inhibit": (1, 0), "pause": None, "feed override 0": None}
 
 

@@ -1,5 +1,5 @@
-# FP-025: a spindle with constant surface speed that is stopped and started by hand in a pause keeps mode and value; after an
-# abort the spindle mode is G97, shown and in effect, and a program starts with the S word it has.
+# FP-025: a spindle with constant surface speed that is stopped and started by hand in a pause keeps mode and value;
+# after an abort the spindle mode is G97, shown and in effect, and a program starts with the S word it has.
 import os
 
 import hal

@@ -1,5 +1,6 @@
 # FP-029: a set speed alone is not shown as turning; orientation and running exclude each other; with constant surface
-# speed the status has the commanded rpm, D only where it acts, beside the surface speed that is set and the measured rpm.
+# speed the status has the commanded rpm, D only where it acts, beside the surface speed that
+# is set and the measured rpm.
 import os
 
 import hal
@@ -17,8 +18,10 @@ def show(what, wait=0.3):
     """State of spindle 0 in the status; what its outputs do."""
     sleep(wait)
     now = poll().spindle[0]
-    print(f"{what}: speed {now['speed']:.1f} direction {now['direction']} enabled {now['enabled']} orient {now['orient_state']}, "
-          f"set {s.settings[2]:g};", *(p for p in ("on", "forward", "reverse", "orient", "locked") if pin(p)), f"{pin('speed-out'):.1f}", messages())
+    print(f"{what}: speed {now['speed']:.1f} direction {now['direction']} enabled {now['enabled']} orient "
+          f"{now['orient_state']}, "
+          f"set {s.settings[2]:g};", *(p for p in ("on", "forward", "reverse", "orient", "locked") if pin(p)),
+          f"{pin('speed-out'):.1f}", messages())
 
 
 on()

@@ -13,7 +13,8 @@ for modal in ("M48", "M49", "M48 M50 P0"):
     for word in modal.split(" ", 1):
         mdi(word)
     before = shown()
-    for code, waits in (("G33 Z-10 K1", (0.0, 0.05, 0.6, 1.0)), ("G76 P1 Z-10 I-1 J0.2 R1 K1 Q30 H1 E0 L0", (0.1, 1.0, 3.0))):
+    for code, waits in (("G33 Z-10 K1", (0.0, 0.05, 0.6, 1.0)),
+                        ("G76 P1 Z-10 I-1 J0.2 R1 K1 Q30 H1 E0 L0", (0.1, 1.0, 3.0))):
         wrong = []
         for wait in waits:
             mdi("G53 G0 Z0")
@@ -28,7 +29,8 @@ for modal in ("M48", "M49", "M48 M50 P0"):
 
 for words in ("S1000", "M3", "F600", "G64 P0.05", "G21 G17 G90", "M8", "S1000 M3 F600 G64 P0.05 G21 G17 G90 M8"):
     mdi("G0 X0")
-    program("M3 S1000\nG64 P0.05\nM8\nF600\nG1 X0 Y0 Z0\n" + "".join(f"G1 X{i * 0.5} {words}\n" for i in range(1, 61)) + "M2\n")
+    program("M3 S1000\nG64 P0.05\nM8\nF600\nG1 X0 Y0 Z0\n" + "".join(f"G1 X{i * 0.5} {words}\n" for i in range(1, 61))
+            + "M2\n")
     c.auto(AUTO_RUN, 0)
     sleep(1.0)
     low = 1e9

@@ -10,7 +10,8 @@ def show(what):
     sleep(0.3)
     poll()
     asked = s.rapidrate if s.motion_type == MOTION_TYPE_TRAVERSE else s.feedrate
-    print(f"{what}: asked {asked:g}, is {s.override_effective:.3f}, {CAUSES[s.override_cause]}; speed {s.current_vel * 60:.0f}")
+    print(f"{what}: asked {asked:g}, is {s.override_effective:.3f}, {CAUSES[s.override_cause]}; speed "
+          f"{s.current_vel * 60:.0f}")
 
 
 def put(call, *values):

@@ -1,5 +1,6 @@
 # FP-072: what a contact in a rapid move or a feed does. FP-076: outside probe moves a glitch may be filtered; a probe
-# move latches the first edge whatever the filter, and its bounce, or a contact that it leaves closed, is no fault of the next move.
+# move latches the first edge whatever the filter, and its bounce, or a contact that it leaves closed, is no fault of
+# the next move.
 import hal
 from mill import *
 

@@ -1,6 +1,6 @@
-# FP-073: the tool setter's macro of the sample machine, called in mm and in inches with offsets in force, gives the same
-# length and leaves the units as they were. FP-077: the tool goes up, across, and down only in moves that a contact ends;
-# one on the way stops it. FP-078: a setter that is not touched is told by the macro itself.
+# FP-073: the tool setter's macro of the sample machine, called in mm and in inches with offsets in force, gives the
+# same length and leaves the units as they were. FP-077: the tool goes up, across, and down only in moves that a
+# contact ends; one on the way stops it. FP-078: a setter that is not touched is told by the macro itself.
 import os
 
 from mill import *
@@ -31,7 +31,8 @@ for units in ("G21", "G20"):
     for line in (units, "G10 L2 P1 X1 Y2 Z3", "G52 Z0.5", "G91", "F33", "G10 L1 P1 Z0"):
         mdi(line)
     wrong = measure()
-    print(f"{units}: length {s.tool_table[1].zoffset:.3f}, G20 {200 in s.gcodes}, G91 {910 in s.gcodes}, F{s.settings[1]:.0f}", wrong, messages())
+    print(f"{units}: length {s.tool_table[1].zoffset:.3f}, G20 {200 in s.gcodes}, G91 {910 in s.gcodes}, "
+          f"F{s.settings[1]:.0f}", wrong, messages())
 mdi("G90 G52 Z0")
 setp("plate.in0", -1000)
 measure()

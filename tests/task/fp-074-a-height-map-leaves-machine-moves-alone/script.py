@@ -20,7 +20,8 @@ setp("z_level_compensation.enable-in", 1)
 sleep(1)
 poll()
 print("corrected at rest:", round(s.joint_position[2], 4))
-for line in ("G0 Z-2", "G53 G0 Z-4", "G53 G0 X5", "M5", "G0 Z-2", "G0 X5", "G28", "G0 X0 Y0 Z-2", "G30 Z10", "G1 F900 Z-2"):
+for line in ("G0 Z-2", "G53 G0 Z-4", "G53 G0 X5", "M5", "G0 Z-2", "G0 X5", "G28", "G0 X0 Y0 Z-2", "G30 Z10",
+             "G1 F900 Z-2"):
     print(shown(line))
 setp("axis.z.eoffset-work-only", 0)
 print("a setting of every offset:", shown("G53 G0 Z-4"))
@@ -36,4 +37,5 @@ while s.interp_state != INTERP_IDLE or s.queue:
     sleep(0.001)
 sleep(1)
 poll()
-print(f"in a program: {min(abs(z + 4) for z in seen):.4f} from Z-4 at the least, ends at {s.joint_position[2]:.4f}", messages())
+print(f"in a program: {min(abs(z + 4) for z in seen):.4f} from Z-4 at the least, ends at {s.joint_position[2]:.4f}",
+      messages())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# T, M6 and M61 remapped by the glue library, with pockets that are neither tool numbers nor places of the table: status,
-# pin, parameters, length and table name the tool that was called, by MDI and in a program.
+# T, M6 and M61 remapped by the glue library, with pockets that are neither tool numbers nor places of the table:
+# status, pin, parameters, length and table name the tool that was called, by MDI and in a program.
 from mill import *
 
 random = linuxcnc.ini("mill.ini").find("EMCIO", "RANDOM_TOOLCHANGER") == "1"
@@ -11,7 +11,8 @@ def show(what, result):
     mdi("G43")
     mdi("(debug,%d#5400 %d#<_current_tool> %.1f#5403)")
     where = f" table {tools_in_pockets('mill.tbl')}" if random else ""
-    print(f"{what:10} {result} T{poll().tool_in_spindle} pin {getp('iocontrol.0.tool-number')} length {s.tool_offset[2]:g} parameters {messages()}{where}", told)
+    print(f"{what:10} {result} T{poll().tool_in_spindle} pin {getp('iocontrol.0.tool-number')} length "
+          f"{s.tool_offset[2]:g} parameters {messages()}{where}", told)
 
 
 on()

@@ -27,7 +27,8 @@ def cancel(serial):
 
 on()
 serials = fill()
-print("waiting", waiting(), [serial for serial, _ in s.mdi_queue] == [serials[line] for line in ("G0 X20", "G0 Y20", "G0 Z-2")])
+print("waiting", waiting(),
+      [serial for serial, _ in s.mdi_queue] == [serials[line] for line in ("G0 X20", "G0 Y20", "G0 Z-2")])
 print("cancel", cancel(serials["G0 Y20"]), waiting())
 print("again", cancel(serials["G0 Y20"]), waiting())
 print("running", cancel(serials["G4 P1"]), waiting())
@@ -37,8 +38,9 @@ fill()
 print("all", cancel(0), waiting(), c.wait_complete(20), xyz(1))
 give("M66 P0 L3 Q2", *(f"G0 X{i}" for i in range(18)))
 print("18 wait,", len(poll().mdi_queue), "shown", s.queued_mdi_commands, c.wait_complete(20), xyz(1))
-for name, stop in (("abort", c.abort), ("MDI", lambda: c.mode(MODE_MDI)), ("auto", lambda: c.mode(MODE_AUTO)), ("manual", lambda: c.mode(MODE_MANUAL)),
-                   ("off", lambda: c.state(STATE_OFF)), ("estop", lambda: c.state(STATE_ESTOP)), ("chain", lambda: setp("iocontrol.0.emc-enable-in", 0)),
+for name, stop in (("abort", c.abort), ("MDI", lambda: c.mode(MODE_MDI)), ("auto", lambda: c.mode(MODE_AUTO)),
+                   ("manual", lambda: c.mode(MODE_MANUAL)), ("off", lambda: c.state(STATE_OFF)),
+                   ("estop", lambda: c.state(STATE_ESTOP)), ("chain", lambda: setp("iocontrol.0.emc-enable-in", 0)),
                    ("enable", lambda: setp("motion.enable", 0)), ("mistake", lambda: None)):
     mdi("G0 X0 Y0 Z0")
     fill()

@@ -71,7 +71,8 @@ elif part == "again":
     poll()
     print("nothing moved or started:", xyz() == before, s.spindle[0]["enabled"], s.flood, s.tool_in_spindle)
     c.restore_confirm(line)
-    need(lambda s: s.motion_line == line and s.spindle[0]["enabled"] and s.current_vel > 0 and s.g5x_index == 2, "the line", 100)
+    need(lambda s: s.motion_line == line and s.spindle[0]["enabled"] and s.current_vel > 0 and s.g5x_index == 2,
+         "the line", 100)
     print("goes on:", s.spindle[0]["speed"], s.flood, s.tool_in_spindle, s.g5x_index)
     c.abort()
     c.wait_complete()

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Random programs from random start states (work offset, rotation, G92, tool length, units, plane set by MDI): each vertex of what
-# the screen draws lies on the path that is made, each point of the path that is cut lies on what is drawn, both within 1 um, and the
-# drawing reaches as far as the path does. Arcs are drawn as chords, here of 0.7 degrees, less than 0.2 um beside them.
+# Random programs from random start states (work offset, rotation, G92, tool length, units, plane set by MDI): each
+# vertex of what the screen draws lies on the path that is made, each point of the path that is cut lies on what is
+# drawn, both within 1 um, and the drawing reaches as far as the path does. Arcs are drawn as chords, here of 0.7
+# degrees, less than 0.2 um beside them.
 import math
 import random
 
@@ -32,7 +33,8 @@ def random_program():
         elif kind < 8:
             lines.append(f"G91 G1 X{number(-3, 3)} Y{number(-3, 3)}\nG90")
         elif kind < 9:
-            lines.append(R.choice((f"G92 X{number(-3, 3)} Y{number(-3, 3)}", "G92.1", f"G10 L2 P1 R{number(-90, 90)}", "G54", "G55", f"G43.1 Z{number(0, 5)}", "G49")))
+            lines.append(R.choice((f"G92 X{number(-3, 3)} Y{number(-3, 3)}", "G92.1", f"G10 L2 P1 R{number(-90, 90)}",
+                                   "G54", "G55", f"G43.1 Z{number(0, 5)}", "G49")))
         else:
             lines.append(f"G20 G1 X{number(-0.4, 0.4)} Y{number(-0.4, 0.4)} F24\nG21 F600")
     return "\n".join(l for l in lines if l not in ("G0", "G1")) + "\nM2\n"
@@ -55,14 +57,17 @@ loader = Loader(settings)
 for n in range(3):
     for line in ("G90 G21 G17 G49 G92.1", "G10 L2 P1 X0 Y0 Z0 R0", "G54 G53 G0 X0 Y0 Z0"):
         mdi(line)
-    for line in (f"G10 L2 P1 X{number(-20, 20)} Y{number(-20, 20)} Z-20 R{number(-180, 180)}", f"G10 L2 P2 X{number(-20, 20)} Y5 Z-30 R{number(0, 45)}", R.choice(("G54", "G55")),
-                 R.choice(("G92 X1 Y2 Z3", "G92.1")), R.choice(("G43.1 Z7.5", "G49")), f"G53 G0 X{number(0, 9)} Y{number(0, 9)} Z-25", R.choice(("G20", "G21")), R.choice(("G18", "G17"))):
+    for line in (f"G10 L2 P1 X{number(-20, 20)} Y{number(-20, 20)} Z-20 R{number(-180, 180)}",
+                 f"G10 L2 P2 X{number(-20, 20)} Y5 Z-30 R{number(0, 45)}", R.choice(("G54", "G55")),
+                 R.choice(("G92 X1 Y2 Z3", "G92.1")), R.choice(("G43.1 Z7.5", "G49")),
+                 f"G53 G0 X{number(0, 9)} Y{number(0, 9)} Z-25", R.choice(("G20", "G21")), R.choice(("G18", "G17"))):
         mdi(line)
     program(random_program(), f"p{n}.ngc")
     mode(MODE_MANUAL)
     c.task_plan_synch()
     c.wait_complete()
-    preview, (drawn,) = loader.read(str(Path(f"p{n}.ngc").resolve()), poll(), False, [(-1, 0.0, "XYZABCUVW", [0.0] * 9, "XYZ")], 60.0).result()
+    preview, (drawn,) = loader.read(str(Path(f"p{n}.ngc").resolve()), poll(), False,
+                                    [(-1, 0.0, "XYZABCUVW", [0.0] * 9, "XYZ")], 60.0).result()
     mode(MODE_AUTO)
     offset = numpy.array(poll().tool_offset[:3])
     made, cut = [numpy.array(s.position[:3]) - offset], []
@@ -78,5 +83,9 @@ for n in range(3):
     worst = max(distances(shown, made))
     beside = max(distances(cut, numpy.vstack([made[:1], shown])))
     reach = max(abs(made.max(0) - shown.max(0)).max(), abs(made.min(0) - shown.min(0)).max())
-    print(n, preview.error, messages(), "vertices", len(shown) > 20, "on the path" if worst < 1e-3 else f"OFF by {worst:.6f}", "drawn as it is made" if beside < 1e-3 and len(cut) > 500 else f"MADE {beside:.6f} beside it, {len(cut)} points", "same extent" if reach < 0.05 else f"EXTENT differs by {reach:.4f}")
+    print(n, preview.error, messages(), "vertices", len(shown) > 20,
+          "on the path" if worst < 1e-3 else f"OFF by {worst:.6f}",
+          "drawn as it is made" if beside < 1e-3 and len(cut) > 500
+          else f"MADE {beside:.6f} beside it, {len(cut)} points",
+          "same extent" if reach < 0.05 else f"EXTENT differs by {reach:.4f}")
 loader.close()

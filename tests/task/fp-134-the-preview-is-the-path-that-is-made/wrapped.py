@@ -17,10 +17,12 @@ for start in (725.5, -1085.25):
     c.task_plan_synch()
     c.wait_complete()
     at = poll().position[3]
-    preview, (drawn,) = loader.read(str(Path("turn.ngc").resolve()), s, False, [(-1, 0.0, "XYZ!A", [0.0] * 9, "XYZA")], 60.0).result()
+    preview, (drawn,) = loader.read(str(Path("turn.ngc").resolve()), s, False,
+                                    [(-1, 0.0, "XYZ!A", [0.0] * 9, "XYZA")], 60.0).result()
     mode(MODE_AUTO)
     c.auto(AUTO_RUN, 0)
     need(lambda s: s.interp_state == INTERP_IDLE and s.inpos and s.queue == 0, "end of the program")
-    print(round(at, 3), preview.error, preview.failed, preview.n_moves, "vertices", len(drawn.vertices) > 10, "turned", round(poll().position[3] - at, 3), messages())
+    print(round(at, 3), preview.error, preview.failed, preview.n_moves, "vertices", len(drawn.vertices) > 10, "turned",
+          round(poll().position[3] - at, 3), messages())
     mdi("G90 G0 A0 X0 Y0")
 loader.close()

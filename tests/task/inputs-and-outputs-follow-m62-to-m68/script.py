@@ -9,7 +9,8 @@ def show(what):
 
 on()
 mode(MODE_MDI)
-for line, before, after in (("M66 P0 L3 Q1", 0, 1), ("M66 P0 L4 Q1", 1, 0), ("M66 P0 L1 Q1", 0, 1), ("M66 P0 L2 Q1", 1, 0)):
+for line, before, after in (("M66 P0 L3 Q1", 0, 1), ("M66 P0 L4 Q1", 1, 0), ("M66 P0 L1 Q1", 0, 1),
+                            ("M66 P0 L2 Q1", 1, 0)):
     setp("motion.digital-in-00", before)
     sleep(0.01)
     c.mdi(line)

@@ -47,7 +47,8 @@ def until(condition, timeout=30.0, step=0.001):
 
 def need(condition, what, timeout=30.0):
     if not until(condition, timeout):
-        raise SystemExit(f"no {what}: mode {s.task_mode} state {s.task_state} interp {s.interp_state} exec {s.exec_state} rcs {s.state} {messages()}")
+        raise SystemExit(f"no {what}: mode {s.task_mode} state {s.task_state} interp {s.interp_state} exec "
+                         f"{s.exec_state} rcs {s.state} {messages()}")
 
 
 def sleep(seconds):

@@ -4,7 +4,8 @@ from mill import *
 
 def show(what):
     poll()
-    print(f"{what:8} interp {s.interp_state} exec {s.exec_state} command {s.command!r} queued {s.queued_mdi_commands} rcs {s.state}", xyz(1), messages())
+    print(f"{what:8} interp {s.interp_state} exec {s.exec_state} command {s.command!r} queued "
+          f"{s.queued_mdi_commands} rcs {s.state}", xyz(1), messages())
 
 
 on()

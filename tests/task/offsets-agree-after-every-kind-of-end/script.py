@@ -36,8 +36,11 @@ LINES = TEXT.splitlines()
 
 def modes():
     poll()
-    return {"offsets": (s.g5x_index, s.g5x_offset, s.g92_offset, s.tool_offset, s.rotation_xy), "path": (round(s.settings[3], 5),),
-            "codes": tuple(g for g in s.gcodes[1:] if g in (170, 180, 190, 200, 210, 540, 550, 610, 640, 430, 490, 900, 910)), "units": s.program_units}
+    return {"offsets": (s.g5x_index, s.g5x_offset, s.g92_offset, s.tool_offset, s.rotation_xy),
+            "path": (round(s.settings[3], 5),),
+            "codes": tuple(g for g in s.gcodes[1:]
+                           if g in (170, 180, 190, 200, 210, 540, 550, 610, 640, 430, 490, 900, 910)),
+                           "units": s.program_units}
 
 
 def agreed():
@@ -49,7 +52,8 @@ def agreed():
     x, y, z = (a - b for a, b in zip(s.position[:3], s.g5x_offset))
     turn = math.radians(-s.rotation_xy)
     x, y = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
-    shown = [(v - o) / unit for v, o in zip((x - s.tool_offset[0], y - s.tool_offset[1], z - s.tool_offset[2]), s.g92_offset)]
+    shown = [(v - o) / unit for v, o in zip((x - s.tool_offset[0], y - s.tool_offset[1], z - s.tool_offset[2]),
+                                            s.g92_offset)]
     if system != s.g5x_index or any(abs(a - b) > 1e-3 for a, b in zip(shown, here)):
         return f"status {s.g5x_index} {shown} interpreter {line}"
     target = shown[0] + 0.5 / unit
@@ -68,8 +72,8 @@ def limit():
     hal.set_p("joint.0.neg-lim-sw-in", "1")
 
 
-STOPS = {"abort": c.abort, "off": lambda: c.state(STATE_OFF), "estop": lambda: c.state(STATE_ESTOP), "chain": chain, "limit": limit,
-         "enable": lambda: hal.set_p("motion.enable", "0")}
+STOPS = {"abort": c.abort, "off": lambda: c.state(STATE_OFF), "estop": lambda: c.state(STATE_ESTOP), "chain": chain,
+         "limit": limit, "enable": lambda: hal.set_p("motion.enable", "0")}
 count = 0
 on()
 for name, stop in STOPS.items():

@@ -4,7 +4,8 @@ from mill import *
 
 def show(what):
     poll()
-    print(f"{what:12} mode {s.task_mode} interp {s.interp_state} task_paused {s.task_paused} paused {s.paused} rcs {s.state} queue {s.queue}", xyz(1), messages())
+    print(f"{what:12} mode {s.task_mode} interp {s.interp_state} task_paused {s.task_paused} paused {s.paused} rcs "
+          f"{s.state} queue {s.queue}", xyz(1), messages())
 
 
 on()

@@ -9,7 +9,8 @@ PROBES, STARTS = int(os.environ.get("PROBES", "1000")), int(os.environ.get("STAR
 
 on()
 mdi("G53 G0 Z50")
-program(f"F60000\n#1 = 0\no1 repeat [{PROBES // 2}]\nG91\nG38.3 X0.2\nG38.3 X-0.2\nG90\n#1 = [#1 + #5070]\no1 endrepeat\n(debug,contacts #1)\nM2\n")
+program(f"F60000\n#1 = 0\no1 repeat [{PROBES // 2}]\nG91\nG38.3 X0.2\nG38.3 X-0.2\nG90\n#1 = [#1 + #5070]\n"
+        "o1 endrepeat\n(debug,contacts #1)\nM2\n")
 c.auto(AUTO_RUN, 0)
 print(c.wait_complete(PROBES), messages(), xyz(3))
 missed = 0

@@ -7,7 +7,8 @@ from mill import *
 def show(what, result=""):
     poll()
     shared, kept = tools_in_pockets(), tools_in_pockets("mill.tbl")
-    print(f"{what:24} {result} T{s.tool_in_spindle} prepared {s.pocket_prepped} number {getp('iocontrol.0.tool-number')} table {shared}",
+    print(f"{what:24} {result} T{s.tool_in_spindle} prepared {s.pocket_prepped} number "
+          f"{getp('iocontrol.0.tool-number')} table {shared}",
           "" if shared == kept else f"FILE {kept}", messages())
 
 

@@ -34,7 +34,8 @@ M9
 G1 X1
 M2
 """
-PINS = ("spindle.0.on", "spindle.0.forward", "spindle.0.reverse", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change",
+PINS = ("spindle.0.on", "spindle.0.forward", "spindle.0.reverse", "iocontrol.0.coolant-flood",
+        "iocontrol.0.coolant-mist", "iocontrol.0.tool-change",
         "iocontrol.0.tool-prepare")
 R = random.Random(47)
 
@@ -70,7 +71,8 @@ def wrong_order():
 
 
 WAYS = {"running": lambda: None, "paused": pause, "stepped": step, "stopped by hand": by_hand}
-STOPS = {"abort": c.abort, "off": lambda: c.state(STATE_OFF), "estop": lambda: c.state(STATE_ESTOP), "fault": wrong_order}
+STOPS = {"abort": c.abort, "off": lambda: c.state(STATE_OFF), "estop": lambda: c.state(STATE_ESTOP),
+         "fault": wrong_order}
 QUIET = "G21 G90 F2400\no<part> sub\nM73\nG1 X2\no<part> endsub\nM70\nG1 X1\nM72\no<part> call\nS900\nG1 X0\nM2\n"
 
 
@@ -97,8 +99,9 @@ def stepping():
 
 
 # What the operator does next; none of it starts a spindle or coolant.
-NEXT = {"a move by MDI": lambda: mdi("G1 F2400 X0"), "S by MDI": lambda: mdi("S1200"), "restore by MDI": lambda: mdi("M72"),
-        "a sub by MDI": lambda: (mdi("M70"), mdi("M72")), "a quiet program": lambda: run(QUIET, name="quiet.ngc"), "its steps": stepping,
+NEXT = {"a move by MDI": lambda: mdi("G1 F2400 X0"), "S by MDI": lambda: mdi("S1200"),
+        "restore by MDI": lambda: mdi("M72"), "a sub by MDI": lambda: (mdi("M70"), mdi("M72")),
+        "a quiet program": lambda: run(QUIET, name="quiet.ngc"), "its steps": stepping,
         "resume": lambda: (mode(MODE_AUTO), c.auto(AUTO_RESUME), sleep(0.1), c.abort()),
         "modes": lambda: [mode(m) for m in (MODE_MANUAL, MODE_MDI, MODE_AUTO, MODE_MANUAL)],
         "a restoring start, shown": lambda: restoring(False), "a restoring start, confirmed": lambda: restoring(True)}

@@ -39,7 +39,8 @@ c.auto(AUTO_RESUME)
 show("stopped by hand, resumed")
 c.abort()
 # FP-004: started by MDI, stopped by hand; then routines save and restore the state, one of them fails.
-open("probe.ngc", "w").write("o<probe> sub\nM70\nG91\no1 if [#1 EQ 3]\nG38.3 Z-1 F300\no1 else\nG38.2 Z-1 F300\no1 endif\nG90\nM72\no<probe> endsub\nM2\n")
+open("probe.ngc", "w").write("o<probe> sub\nM70\nG91\no1 if [#1 EQ 3]\nG38.3 Z-1 F300\no1 else\nG38.2 Z-1 F300\n"
+                             "o1 endif\nG90\nM72\no<probe> endsub\nM2\n")
 open("saved.ngc", "w").write("o<saved> sub\nM73\nG91 G38.2 Z-1 F300\nG90\no<saved> endsub\nM2\n")
 for call in ("o<probe> call [3]", "o<probe> call [2]", "o<saved> call"):
     mdi("M3 S700")

@@ -29,7 +29,8 @@ c.program_open(s.file if poll() else "")
 print(c.wait_complete(), messages())
 c.auto(AUTO_RUN, 0)
 print(c.wait_complete(), xyz(1))
-print(run("G0 X1\nG1 X Y2 F100\nM2\n"), s.error_line if poll() else 0, s.error_column, s.error_file.rsplit("/", 1)[-1], messages())
+print(run("G0 X1\nG1 X Y2 F100\nM2\n"), s.error_line if poll() else 0, s.error_column,
+      s.error_file.rsplit("/", 1)[-1], messages())
 # A jog shows its speed. In joint mode the status is EXEC while it goes on, in teleop mode it is DONE, as documented.
 mode(MODE_MANUAL)
 for teleop in (1, 0):

@@ -5,7 +5,8 @@
 import hal
 from mill import *
 
-PINS = ("spindle.0.on", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change", "iocontrol.0.tool-prepare", "motion.digital-out-00")
+PINS = ("spindle.0.on", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change",
+        "iocontrol.0.tool-prepare", "motion.digital-out-00")
 
 
 def pins():
@@ -18,7 +19,8 @@ def chain():
 
 
 STOPS = {"abort": c.abort, "off": lambda: c.state(STATE_OFF), "estop": lambda: c.state(STATE_ESTOP), "chain": chain,
-         "limit": lambda: hal.set_p("joint.0.neg-lim-sw-in", "1"), "fault": lambda: hal.set_p("joint.1.amp-fault-in", "1")}
+         "limit": lambda: hal.set_p("joint.0.neg-lim-sw-in", "1"),
+         "fault": lambda: hal.set_p("joint.1.amp-fault-in", "1")}
 on()
 mdi("G10 L2 P1 X0.5 Y0.25")
 busy_program()

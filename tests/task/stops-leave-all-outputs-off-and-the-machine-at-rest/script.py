@@ -17,7 +17,8 @@ TEXT = "G21 G90 G64 P0.02 F3000\nG0 X20 Y0\nM3 S2000\nM7\nM8\nG1 X20\n"
 TEXT += "".join(f"G1 X{20 * math.cos(a / 50):.4f} Y{20 * math.sin(a / 50):.4f}\n" for a in range(1, 315))
 TEXT += "M9\nT1 M6\nM3 S1500\nM8\n"
 TEXT += "".join(f"G1 X{20 * math.cos(a / 50):.4f} Y{20 * math.sin(a / 50):.4f}\n" for a in range(1, 315)) + "M2\n"
-OUTPUTS = ("spindle.0.on", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change", "iocontrol.0.tool-prepare")
+OUTPUTS = ("spindle.0.on", "iocontrol.0.coolant-flood", "iocontrol.0.coolant-mist", "iocontrol.0.tool-change",
+           "iocontrol.0.tool-prepare")
 
 
 def high():
@@ -59,7 +60,8 @@ for n in range(STOPS_MOST):
     rest = positions[-1] == positions[-10] and s.queue == 0 and s.inpos and s.interp_state == INTERP_IDLE
     if not rest or travelled > 1 + speed ** 2 / 1600 or off_path > 0.1 or high():
         wrong += 1
-        print("stop", n, name, "paused" if paused else "", f"speed {speed:.1f} went {travelled:.3f} off the path by {off_path:.3f}", rest, high())
+        print("stop", n, name, "paused" if paused else "",
+              f"speed {speed:.1f} went {travelled:.3f} off the path by {off_path:.3f}", rest, high())
     if name != "abort":
         on(home=not all(poll().homed[:3]))
     if n % 20 == 0:

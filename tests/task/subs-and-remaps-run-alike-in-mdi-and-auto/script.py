@@ -44,7 +44,8 @@ for how in ("mdi", "auto"):
     print(how, "failed:", result, "tool", s.tool_in_spindle, "z", xyz()[2], "output", s.dout[0], messages())
 
 # A program that is stopped somewhere and another that is opened.
-big = "G21 G90 F6000\n" + "".join(f"N{n} G1 X{n % 40 / 10:.3f} Y{n % 70 / 10:.3f} (line {n})\n" for n in range(1, 30000)) + "M2\n"
+big = "G21 G90 F6000\n" + "".join(f"N{n} G1 X{n % 40 / 10:.3f} Y{n % 70 / 10:.3f} (line {n})\n"
+                                  for n in range(1, 30000)) + "M2\n"
 for wait in (0.05, 0.3, 0.77):
     program(big, "big.ngc")
     c.auto(AUTO_RUN, 0)

@@ -5,7 +5,8 @@ from mill import *
 def tool(what):
     poll()
     t = s.tool_table[0]
-    print(f"{what:10} in spindle {s.tool_in_spindle} from {s.tool_from_pocket} prepared {s.pocket_prepped} spindle entry {t.id} {t.zoffset} {t.diameter}"
+    print(f"{what:10} in spindle {s.tool_in_spindle} from {s.tool_from_pocket} prepared {s.pocket_prepped} spindle "
+          f"entry {t.id} {t.zoffset} {t.diameter}"
           f" pins {getp('iocontrol.0.tool-number')} {getp('iocontrol.0.tool-prep-number')}", messages())
 
 
@@ -50,9 +51,11 @@ sleep(0.1)
 poll()
 print("aborted", s.interp_state, s.exec_state, s.state, getp("iocontrol.0.tool-change"), s.tool_in_spindle)
 setp("iocontrol.0.tool-changed", 1)
-# The table on disk gets another order between T and M6: the tool counts, not its place. One that is gone is not changed in.
+# The table on disk gets another order between T and M6: the tool counts, not its place. One
+# that is gone is not changed in.
 table = open("mill.tbl").read()
-for name, text in (("moved", "T77 P77 Z7\n" + table), ("gone", "\n".join(l for l in table.splitlines() if not l.startswith("T4")) + "\n")):
+for name, text in (("moved", "T77 P77 Z7\n" + table),
+                   ("gone", "\n".join(l for l in table.splitlines() if not l.startswith("T4")) + "\n")):
     mdi("T1 M6")
     print(mdi("T4"), messages())
     open("mill.tbl", "w").write(text)

@@ -25,7 +25,8 @@ mdi("M61 Q2 G43 H4")
 print("spindle tool, its length; applied length", say("#5400 #5403 #5083"), poll().tool_offset[2], s.tool_in_spindle)
 print("G43.2 H1 adds", mdi("G10 L1 P1 Z1.5"), mdi("G43.2 H1"), say("#5083"), poll().tool_offset[2])
 print("G43.2 with axis words alone", mdi("G43.2 X1 Z2"), messages(), say("#5081 #5083"), poll().tool_offset[:3])
-print("G43.1", mdi("G43.1 Z7"), say("#5083"), poll().tool_offset[2], "G49", mdi("G49"), say("#5083"), poll().tool_offset[2])
+print("G43.1", mdi("G43.1 Z7"), say("#5083"), poll().tool_offset[2], "G49", mdi("G49"), say("#5083"),
+      poll().tool_offset[2])
 mdi("T1")
 print("selected and current", say("#<_selected_tool> #<_current_tool>"), poll().pocket_prepped)
 mdi("M61 Q0")
@@ -48,5 +49,6 @@ for setting in ("G54 G21", "G55 G21", "G54 G20", "G59 G21"):
     machine.add(round(poll().probed_position[2], 2))
     print(setting, result, messages(), "tripped", s.probe_tripped)
     unit = 25.4 if "G20" in setting else 1
-    print(" work coordinate plus offset is the machine's", abs(say("#5063")[0] * unit + s.g5x_offset[2] - s.probed_position[2]) < 1e-3)
+    print(" work coordinate plus offset is the machine's",
+          abs(say("#5063")[0] * unit + s.g5x_offset[2] - s.probed_position[2]) < 1e-3)
 print("one machine coordinate", len(machine))

@@ -15,7 +15,8 @@ def log():
 
 def show(what, result=""):
     poll()
-    print(f"{what}: {result} T{s.tool_in_spindle} number {getp('iocontrol.0.tool-number')} from {s.tool_from_pocket} {tools_in_pockets()}",
+    print(f"{what}: {result} T{s.tool_in_spindle} number {getp('iocontrol.0.tool-number')} from {s.tool_from_pocket} "
+          f"{tools_in_pockets()}",
           "" if tools_in_pockets() == (kept := tools_in_pockets("db.txt")) else f"DATABASE {kept}", log(), messages())
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-084: a changer that answers late, early, twice or not at all, and stops of each kind, reloads of the table and offsets at
-# any moment of a change, with 1000 tools. Status, pins, shared data and file agree after each step; every tool
-# stays in exactly one pocket; the tool in the spindle changes only when the changer has said so.
+# FP-084: a changer that answers late, early, twice or not at all, and stops of each kind, reloads of the table and
+# offsets at any moment of a change, with 1000 tools. Status, pins, shared data and file agree after each step; every
+# tool stays in exactly one pocket; the tool in the spindle changes only when the changer has said so.
 import os
 import random
 
@@ -26,7 +26,8 @@ get = hal.get_value
 
 
 def wrong(what, *more):
-    raise SystemExit(f"seed {SEED} step {step}: {what} {more}: T{s.tool_in_spindle} prepared {s.pocket_prepped} {messages()}")
+    raise SystemExit(f"seed {SEED} step {step}: {what} {more}: T{s.tool_in_spindle} prepared "
+                     f"{s.pocket_prepped} {messages()}")
 
 
 def shared():
@@ -61,8 +62,8 @@ original = kept()
 messages()
 if is_random:
     mdi(f"M61 Q{tools[0]}")
-STOPS = {"abort": c.abort, "manual": lambda: c.mode(MODE_MANUAL), "auto": lambda: c.mode(MODE_AUTO), "off": lambda: c.state(STATE_OFF),
-         "estop": lambda: c.state(STATE_ESTOP), "mode": lambda: c.mode(MODE_MDI)}
+STOPS = {"abort": c.abort, "manual": lambda: c.mode(MODE_MANUAL), "auto": lambda: c.mode(MODE_AUTO),
+         "off": lambda: c.state(STATE_OFF), "estop": lambda: c.state(STATE_ESTOP), "mode": lambda: c.mode(MODE_MDI)}
 done = dict.fromkeys(list(STOPS) + ["changed", "reload", "offset", "set", "same"], 0)
 for step in range(STEPS):
     if poll().task_state != STATE_ON:
@@ -83,11 +84,13 @@ for step in range(STEPS):
         if poll().tool_in_spindle != wish:
             wrong("M61", wish)
         continue
-    prepare, change = (R.choice((0, 0, 1, 3, 10, 40)) for _ in "12")     # ms of the changer, 0: already on before it is asked
+    # ms of the changer, 0: already on before it is asked
+    prepare, change = (R.choice((0, 0, 1, 3, 10, 40)) for _ in "12")
     mute, stop_at = R.random() < 0.15, R.randint(0, 60) if R.random() < 0.6 else None
     stop = R.choice(list(STOPS))
     asked = {"prepare": None, "change": None}
-    for line in R.choice(([f"T{wish} M6"], [f"T{wish}", "M6"], [f"T{R.choice(tools)}", f"T{wish}", "G4 P0.01", "M6", "G43"])):
+    for line in R.choice(([f"T{wish} M6"], [f"T{wish}", "M6"],
+                          [f"T{R.choice(tools)}", f"T{wish}", "G4 P0.01", "M6", "G43"])):
         c.mdi(line)
     for ms in range(200):
         for name, delay, answer in (("prepare", prepare, "prepared"), ("change", change, "changed")):
@@ -101,7 +104,8 @@ for step in range(STEPS):
         if ms == stop_at or (mute and ms == 150):
             STOPS[stop]()
             done[stop] += 1
-            if stop in ("manual", "auto", "mode"):      # the change that was asked for stays so until it is answered or aborted
+            # the change that was asked for stays so until it is answered or aborted
+            if stop in ("manual", "auto", "mode"):
                 sleep(0.02)
                 if R.random() < 0.5:
                     c.abort()

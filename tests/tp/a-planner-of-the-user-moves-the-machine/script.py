@@ -3,7 +3,8 @@ from mill import *
 
 on()
 print("module", getp("kerf-test-planner.is-module"))
-print(run("F3000\nG0 X10 Y5\nG1 X20\nG1 Y-7 Z3\nM64 P1\nG0 X0 Y0 Z0\nX1 Y2 Z3\nM2\n"), xyz(), getp("motion.digital-out-01"), messages())
+print(run("F3000\nG0 X10 Y5\nG1 X20\nG1 Y-7 Z3\nM64 P1\nG0 X0 Y0 Z0\nX1 Y2 Z3\nM2\n"), xyz(),
+      getp("motion.digital-out-01"), messages())
 t = clock.now()
 mdi("G1 X31 F600")
 print("time", round(clock.now() - t, 1))

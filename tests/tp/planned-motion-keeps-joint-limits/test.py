@@ -118,7 +118,8 @@ origin = dict(x=0, y=0, z=0)
 try_machine("gantry", "trivkins coordinates=xyyz kinstype=both", [0.0] * 4, origin, XYZ, seeds,
             vel=[100.0, 80.0, 60.0, 50.0], acc=[800.0, 1000.0, 600.0, 500.0])
 try_machine("corexy", "corexykins", [0.0] * 3, origin, XYZ, seeds, vel=[100.0, 80.0, 60.0], acc=[900.0, 700.0, 500.0])
-try_machine("delta", "lineardeltakins", [235.0] * 3, origin, XYZ, seeds, vel=[90.0, 100.0, 80.0], acc=[700.0, 900.0, 800.0])
+try_machine("delta", "lineardeltakins", [235.0] * 3, origin, XYZ, seeds, vel=[90.0, 100.0, 80.0],
+            acc=[700.0, 900.0, 800.0])
 try_machine("five-axis", "xyzac-trt-kins", [0.0] * 5, dict(x=10, y=5, z=-20, a=0, c=0),
             dict(x=60, y=60, z=40, a=50, c=120), seeds, axes="xyzac", vel=[100.0, 90.0, 80.0, 60.0, 70.0],
             acc=[800.0, 700.0, 900.0, 500.0, 600.0])

@@ -69,7 +69,8 @@ class Agent:
         observations, numbers = self.observations.current()
         self.mqtt.publish("Current", self.documents.streams(observations, *numbers))
         if new:
-            self.mqtt.publish("Sample", self.documents.streams(new, new[0].sequence, new[-1].sequence, new[-1].sequence + 1))
+            self.mqtt.publish("Sample",
+                              self.documents.streams(new, new[0].sequence, new[-1].sequence, new[-1].sequence + 1))
         everything, self.send_assets = self.send_assets, False
         for tool in self.tools:
             if everything or tool not in old_tools:
@@ -108,8 +109,10 @@ def run(agent, pins):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(prog=NAME, description="Publishes what the controller does as MTConnect, reading only.")
-    parser.add_argument("ini", nargs="?", default=os.environ.get("INI_FILE_NAME"), help="INI file (default: INI_FILE_NAME of the environment)")
+    parser = argparse.ArgumentParser(prog=NAME,
+                                     description="Publishes what the controller does as MTConnect, reading only.")
+    parser.add_argument("ini", nargs="?", default=os.environ.get("INI_FILE_NAME"),
+                        help="INI file (default: INI_FILE_NAME of the environment)")
     parser.add_argument("--dump-probe", action="store_true", help="print the probe document and end")
     parser.add_argument("--port", type=int, help="port for HTTP instead of [MTCONNECT]HTTP_PORT")
     options = parser.parse_args(words)

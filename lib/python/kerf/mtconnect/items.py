@@ -12,7 +12,8 @@ from .settings import LETTERS, LINEAR
 LOOK_AGAIN_S = 5.0
 SYSTEMS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 MODES = {linuxcnc.MODE_MANUAL: "MANUAL", linuxcnc.MODE_AUTO: "AUTOMATIC", linuxcnc.MODE_MDI: "MANUAL_DATA_INPUT"}
-EXECUTION = {linuxcnc.INTERP_IDLE: "READY", linuxcnc.INTERP_READING: "ACTIVE", linuxcnc.INTERP_WAITING: "ACTIVE", linuxcnc.INTERP_PAUSED: "INTERRUPTED"}
+EXECUTION = {linuxcnc.INTERP_IDLE: "READY", linuxcnc.INTERP_READING: "ACTIVE", linuxcnc.INTERP_WAITING: "ACTIVE",
+             linuxcnc.INTERP_PAUSED: "INTERRUPTED"}
 
 
 @dataclass(frozen=True)
@@ -38,21 +39,27 @@ class Item:
 def all_items(settings):
     """Those of the device, in the order of the probe document."""
     inch = "INCH" if abs(settings.mm - 1) > 1e-9 else ""
-    items = [Item("avail", "EVENT", "AVAILABILITY", settings.id), Item("assetchg", "EVENT", "ASSET_CHANGED", settings.id), Item("assetrm", "EVENT", "ASSET_REMOVED", settings.id),
+    items = [Item("avail", "EVENT", "AVAILABILITY", settings.id),
+             Item("assetchg", "EVENT", "ASSET_CHANGED", settings.id),
+             Item("assetrm", "EVENT", "ASSET_REMOVED", settings.id),
              Item("estop", "EVENT", "EMERGENCY_STOP", "ctrl"), Item("mode", "EVENT", "CONTROLLER_MODE", "ctrl"),
-             Item("execution", "EVENT", "EXECUTION", "path"), Item("program", "EVENT", "PROGRAM", "path"), Item("line", "EVENT", "LINE_NUMBER", "path", "ACTUAL"),
+             Item("execution", "EVENT", "EXECUTION", "path"), Item("program", "EVENT", "PROGRAM", "path"),
+             Item("line", "EVENT", "LINE_NUMBER", "path", "ACTUAL"),
              Item("pathfeed", "SAMPLE", "PATH_FEEDRATE", "path", "", "MILLIMETER/SECOND", inch and "INCH/SECOND"),
              Item("feedovr", "SAMPLE", "PATH_FEEDRATE", "path", "OVERRIDE", "PERCENT"),
              Item("toolnum", "EVENT", "TOOL_NUMBER", "path"), Item("toolasset", "EVENT", "TOOL_ASSET_ID", "path"),
-             Item("workoffset", "EVENT", "WORK_OFFSET", "path", table=True), Item("tooloffset", "EVENT", "TOOL_OFFSET", "path", table=True),
+             Item("workoffset", "EVENT", "WORK_OFFSET", "path", table=True),
+             Item("tooloffset", "EVENT", "TOOL_OFFSET", "path", table=True),
              Item("xyrotation", "SAMPLE", "x:COORDINATE_ROTATION", "path", "", "DEGREE")]
     for letter in settings.axes:
         low, linear = letter.lower(), letter in LINEAR
         for prefix, subtype in (("pos_", "ACTUAL"), ("poscmd_", "COMMANDED")):
-            items.append(Item(prefix + low, "SAMPLE", "POSITION" if linear else "ANGLE", f"axis_{low}", subtype, "MILLIMETER" if linear else "DEGREE", inch if linear else ""))
+            items.append(Item(prefix + low, "SAMPLE", "POSITION" if linear else "ANGLE", f"axis_{low}", subtype,
+                              "MILLIMETER" if linear else "DEGREE", inch if linear else ""))
     items += [Item("spdl_speed", "SAMPLE", "ROTARY_VELOCITY", "spindle", "ACTUAL", "REVOLUTION/MINUTE"),
               Item("spdl_speed_cmd", "SAMPLE", "ROTARY_VELOCITY", "spindle", "COMMANDED", "REVOLUTION/MINUTE"),
-              Item("spdl_mode", "EVENT", "ROTARY_MODE", "spindle"), Item("spdl_dir", "EVENT", "DIRECTION", "spindle", "ROTARY"),
+              Item("spdl_mode", "EVENT", "ROTARY_MODE", "spindle"),
+              Item("spdl_dir", "EVENT", "DIRECTION", "spindle", "ROTARY"),
               Item("coolant_flood", "EVENT", "x:FLOOD", "coolant"), Item("coolant_mist", "EVENT", "x:MIST", "coolant")]
     items += [Item(h.id, "SAMPLE", h.type, h.component, h.subtype, h.units, name=h.name) for h in settings.hal_items]
     return items
@@ -60,8 +67,10 @@ def all_items(settings):
 
 def agent_items(settings):
     agent = f"agent_{settings.plain_name}"
-    return [Item("agent_avail", "EVENT", "AVAILABILITY", agent), Item("agent_device_added", "EVENT", "DEVICE_ADDED", agent),
-            Item("agent_device_removed", "EVENT", "DEVICE_REMOVED", agent), Item("agent_device_changed", "EVENT", "DEVICE_CHANGED", agent)]
+    return [Item("agent_avail", "EVENT", "AVAILABILITY", agent),
+            Item("agent_device_added", "EVENT", "DEVICE_ADDED", agent),
+            Item("agent_device_removed", "EVENT", "DEVICE_REMOVED", agent),
+            Item("agent_device_changed", "EVENT", "DEVICE_CHANGED", agent)]
 
 
 def rounded(value, digits=6):
@@ -86,7 +95,8 @@ class Reader:
         return self.stat.linear_units > 0
 
     def cells(self, pose):
-        return {letter: rounded(self.settings.scaled(letter, pose[LETTERS.index(letter)])) for letter in self.settings.axes}
+        return {letter: rounded(self.settings.scaled(letter, pose[LETTERS.index(letter)]))
+                for letter in self.settings.axes}
 
     def values(self):
         there = self.poll()
@@ -105,13 +115,18 @@ class Reader:
         spindle = s.spindle[0]
         tool = f"tool-{s.tool_in_spindle}" if s.tool_in_spindle > 0 else ""
         found = {
-            "avail": "AVAILABLE", "estop": "TRIGGERED" if s.task_state == linuxcnc.STATE_ESTOP else "ARMED", "mode": MODES.get(s.task_mode),
-            "execution": EXECUTION.get(s.interp_state), "program": os.path.basename(s.file), "line": str(s.motion_line),
-            "pathfeed": rounded(s.current_vel / settings.mm), "feedovr": rounded(s.feedrate * 100, 1), "toolnum": str(s.tool_in_spindle), "toolasset": tool,
-            "workoffset": {SYSTEMS[s.g5x_index - 1]: self.cells(s.g5x_offset)} if 1 <= s.g5x_index <= len(SYSTEMS) else None,
-            "tooloffset": {f"T{s.tool_in_spindle}" if tool else "G43": self.cells(s.tool_offset)}, "xyrotation": rounded(s.rotation_xy),
-            "spdl_speed": rounded(spindle["speed"] * spindle["override"], 3), "spdl_speed_cmd": rounded(spindle["speed"], 3), "spdl_mode": "SPINDLE",
-            "spdl_dir": {1: "CLOCKWISE", -1: "COUNTER_CLOCKWISE"}.get(spindle["direction"]), "coolant_flood": "ON" if s.flood else "OFF", "coolant_mist": "ON" if s.mist else "OFF"}
+            "avail": "AVAILABLE", "estop": "TRIGGERED" if s.task_state == linuxcnc.STATE_ESTOP else "ARMED",
+            "mode": MODES.get(s.task_mode), "execution": EXECUTION.get(s.interp_state),
+            "program": os.path.basename(s.file), "line": str(s.motion_line),
+            "pathfeed": rounded(s.current_vel / settings.mm), "feedovr": rounded(s.feedrate * 100, 1),
+            "toolnum": str(s.tool_in_spindle), "toolasset": tool,
+            "workoffset": {SYSTEMS[s.g5x_index - 1]: self.cells(s.g5x_offset)}
+            if 1 <= s.g5x_index <= len(SYSTEMS) else None,
+            "tooloffset": {f"T{s.tool_in_spindle}" if tool else "G43": self.cells(s.tool_offset)},
+            "xyrotation": rounded(s.rotation_xy), "spdl_speed": rounded(spindle["speed"] * spindle["override"], 3),
+            "spdl_speed_cmd": rounded(spindle["speed"], 3), "spdl_mode": "SPINDLE",
+            "spdl_dir": {1: "CLOCKWISE", -1: "COUNTER_CLOCKWISE"}.get(spindle["direction"]),
+            "coolant_flood": "ON" if s.flood else "OFF", "coolant_mist": "ON" if s.mist else "OFF"}
         if found["workoffset"] and any(s.g92_offset):
             found["workoffset"]["G92"] = self.cells(s.g92_offset)
         for letter in settings.axes:

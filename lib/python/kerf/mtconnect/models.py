@@ -7,8 +7,9 @@ from pathlib import Path
 from .settings import LINEAR, warn
 
 BASE, SPINDLE = "BASE", "SPINDLE"
-TYPES = {".stl": ("STL", "model/stl"), ".obj": ("OBJ", "model/obj"), ".gltf": ("GLTF", "model/gltf+json"), ".glb": ("GLB", "model/gltf-binary"),
-         ".ply": ("PLY", "application/octet-stream"), ".step": ("STEP", "model/step"), ".stp": ("STEP", "model/step")}
+TYPES = {".stl": ("STL", "model/stl"), ".obj": ("OBJ", "model/obj"), ".gltf": ("GLTF", "model/gltf+json"),
+         ".glb": ("GLB", "model/gltf-binary"), ".ply": ("PLY", "application/octet-stream"),
+         ".step": ("STEP", "model/step"), ".stp": ("STEP", "model/step")}
 NO_PARENT = ("BASE", "FRAME", "DEVICE", "ROOT", "NONE")
 
 
@@ -47,11 +48,14 @@ class Meshes:
     def __init__(self, settings, ini):
         self.settings = settings
         find = lambda name: ini.find("MTCONNECT", name)
-        letters = lambda text: "".join(letter for letter in re.sub(r"[^A-Z]", "", (text or "").upper()) if letter in settings.axes)
+        letters = lambda text: "".join(letter
+                                       for letter in re.sub(r"[^A-Z]", "", (text or "").upper())
+                                       if letter in settings.axes)
         self.folder = settings.folder / (find("MODEL_DIR") or "")
         self.inverted = letters(find("MODEL_INVERT"))
         self.chain = letters(find("MODEL_CHAIN")) or settings.axes
-        self.parents = {part: (find(f"MODEL_PARENT_{part}") or "").strip().upper() for part in (*settings.axes, SPINDLE)}
+        self.parents = {part: (find(f"MODEL_PARENT_{part}") or "").strip().upper()
+                        for part in (*settings.axes, SPINDLE)}
         self.paths, self.made = {}, {}
         automatic = ini.getbool("MTCONNECT", "MODEL_AUTO", fallback=False)
         for part in (BASE, *settings.axes, SPINDLE):
@@ -101,7 +105,8 @@ class Meshes:
 
     def size(self, part):
         """Of the box that stands for a part: the travel of its axis, and something to see it by."""
-        travel = [100.0 if not (limits := self.settings.axis_limits.get(letter)) or None in limits else limits[1] - limits[0] for letter in "XYZ"]
+        travel = [100.0 if not (limits := self.settings.axis_limits.get(letter)) or None in limits
+                  else limits[1] - limits[0] for letter in "XYZ"]
         if part == BASE:
             return [t * 1.2 for t in travel[:2]] + [max(travel) * 0.1]
         if part in LINEAR:

@@ -36,7 +36,8 @@ class Observations:
         self.last = {item.id: Observation(0, NEVER, item, UNAVAILABLE) for item in items}
 
     def take(self, values, once=()):
-        """Records what changed; an item without a value is unavailable, unless it is in `once` (it happens). Returns the new observations."""
+        """Records what changed; an item without a value is unavailable, unless it is in `once` (it happens). Returns
+        the new observations."""
         now, new = timestamp(), []
         with self.guard:
             for identifier, item in self.items.items():

@@ -86,7 +86,8 @@ class Request(http.server.BaseHTTPRequestHandler):
             else:
                 self.refuse(404, "NOT_FOUND", f"there is no model {path.removeprefix('/models/')}")
         else:
-            self.refuse(404, "UNSUPPORTED", f"{url.path} is not supported; there are /probe, /current, /sample and /assets")
+            self.refuse(404, "UNSUPPORTED",
+                        f"{url.path} is not supported; there are /probe, /current, /sample and /assets")
 
     def sample(self, query):
         agent = self.server.agent
@@ -98,7 +99,8 @@ class Request(http.server.BaseHTTPRequestHandler):
             found = None
         if found is None:
             first, _, following = agent.observations.range()
-            return self.refuse(406, "OUT_OF_RANGE", f"from must be a number from {first} to {following}, count one from 1")
+            return self.refuse(406, "OUT_OF_RANGE",
+                               f"from must be a number from {first} to {following}, count one from 1")
         observations, numbers = found
         self.answer(200, agent.documents.streams(observations, *numbers))
 
@@ -142,7 +144,9 @@ class ShdrClient(socketserver.StreamRequestHandler):
         self.lines = queue.Queue(1000)
         self.connection.settimeout(None)
         observations, _ = self.server.agent.observations.current()
-        self.give(shdr_line([seen for seen in observations if seen.item.component in self.server.agent.device_components]).encode())
+        self.give(shdr_line([seen
+                             for seen in observations
+                             if seen.item.component in self.server.agent.device_components]).encode())
         with self.server.guard:
             self.server.clients.add(self)
         threading.Thread(target=self.write, daemon=True).start()
@@ -197,7 +201,8 @@ class MqttSender:
                 self.connected = False
                 if str(error) != self.told:
                     self.told = str(error)
-                    print(f"mtconnect-agent: MQTT broker {self.agent.settings.broker}: {error}", file=sys.stderr, flush=True)
+                    print(f"mtconnect-agent: MQTT broker {self.agent.settings.broker}: {error}",
+                          file=sys.stderr, flush=True)
             pause.wait(RECONNECT_S)
 
     def serve(self):

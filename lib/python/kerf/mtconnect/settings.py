@@ -11,12 +11,17 @@ import linuxcnc
 LETTERS = "XYZABCUVW"
 LINEAR = "XYZUVW"
 UNITS = {  # type of a HAL_ITEM: its unit in MTConnect
-    "LOAD": "PERCENT", "TEMPERATURE": "CELSIUS", "PRESSURE": "PASCAL", "VOLTAGE": "VOLT", "VOLT_AMPERE": "VOLT_AMPERE", "AMPERAGE": "AMPERE", "WATTAGE": "WATT",
-    "FREQUENCY": "HERTZ", "DISPLACEMENT": "MILLIMETER", "VELOCITY": "MILLIMETER/SECOND", "ACCELERATION": "MILLIMETER/SECOND^2", "ANGLE": "DEGREE",
-    "ANGULAR_VELOCITY": "DEGREE/SECOND", "ANGULAR_ACCELERATION": "DEGREE/SECOND^2", "TORQUE": "NEWTON_METER", "POWER_FACTOR": "PERCENT", "FILL_LEVEL": "PERCENT",
-    "HUMIDITY_RELATIVE": "PERCENT", "CONCENTRATION": "PERCENT", "FLOW": "LITER/SECOND", "MASS": "KILOGRAM", "RESISTANCE": "OHM", "SOUND_LEVEL": "DECIBEL", "STRAIN": "PERCENT",
-    "TILT": "MICRO_RADIAN", "VISCOSITY": "PASCAL_SECOND", "PH": "PH", "CAPACITY_FLUID": "MILLILITER", "LINEAR_FORCE": "NEWTON", "VOLTAGE_DC": "VOLT", "VOLTAGE_AC": "VOLT",
-    "AMPERAGE_DC": "AMPERE", "AMPERAGE_AC": "AMPERE", "PROCESS_TIMER": "SECOND", "POSITION": "MILLIMETER", "ROTARY_VELOCITY": "REVOLUTION/MINUTE"}
+    "LOAD": "PERCENT", "TEMPERATURE": "CELSIUS", "PRESSURE": "PASCAL", "VOLTAGE": "VOLT", "VOLT_AMPERE": "VOLT_AMPERE",
+    "AMPERAGE": "AMPERE", "WATTAGE": "WATT", "FREQUENCY": "HERTZ", "DISPLACEMENT": "MILLIMETER",
+    "VELOCITY": "MILLIMETER/SECOND", "ACCELERATION": "MILLIMETER/SECOND^2", "ANGLE": "DEGREE",
+    "ANGULAR_VELOCITY": "DEGREE/SECOND", "ANGULAR_ACCELERATION": "DEGREE/SECOND^2", "TORQUE": "NEWTON_METER",
+    "POWER_FACTOR": "PERCENT", "FILL_LEVEL": "PERCENT",
+    "HUMIDITY_RELATIVE": "PERCENT", "CONCENTRATION": "PERCENT", "FLOW": "LITER/SECOND", "MASS": "KILOGRAM",
+    "RESISTANCE": "OHM", "SOUND_LEVEL": "DECIBEL", "STRAIN": "PERCENT",
+    "TILT": "MICRO_RADIAN", "VISCOSITY": "PASCAL_SECOND", "PH": "PH", "CAPACITY_FLUID": "MILLILITER",
+    "LINEAR_FORCE": "NEWTON", "VOLTAGE_DC": "VOLT", "VOLTAGE_AC": "VOLT",
+    "AMPERAGE_DC": "AMPERE", "AMPERAGE_AC": "AMPERE", "PROCESS_TIMER": "SECOND", "POSITION": "MILLIMETER",
+    "ROTARY_VELOCITY": "REVOLUTION/MINUTE"}
 
 
 def warn(message):
@@ -105,10 +110,13 @@ def hal_item(line, taken, axes):
     if letter in axes and len(letter) == 1:
         place = f"axis_{letter.lower()}"
     else:
-        place = {"sensors": "sensors", "spindle": "spindle", "controller": "ctrl", "ctrl": "ctrl", "path": "path"}.get(place.lower())
+        place = {"sensors": "sensors", "spindle": "spindle", "controller": "ctrl", "ctrl": "ctrl",
+                 "path": "path"}.get(place.lower())
     if not place:
-        return warn(f"[MTCONNECT]HAL_ITEM = {line}: no component {words['component']}; there are sensors, spindle, controller, path and the axes {axes}")
-    return HalItem(words["pin"], identifier, kind, words.get("units", UNITS[kind]), words.get("name", ""), words.get("subType", ""), place)
+        return warn(f"[MTCONNECT]HAL_ITEM = {line}: no component {words['component']}; there are sensors, spindle, "
+                    f"controller, path and the axes {axes}")
+    return HalItem(words["pin"], identifier, kind, words.get("units", UNITS[kind]), words.get("name", ""),
+                   words.get("subType", ""), place)
 
 
 def joint_axes(module_words, coordinates, joints):
@@ -138,7 +146,8 @@ def read(path):
     axes = "".join(letter for letter in LETTERS if letter in coordinates)
     words = (ini.find("KINS", "KINEMATICS") or "trivkins").split()
     module, module_words = words[0], " ".join(words[1:])
-    mm, degree = ini.getlinearunits("TRAJ", "LINEAR_UNITS", fallback=1.0), ini.getangularunits("TRAJ", "ANGULAR_UNITS", fallback=1.0)
+    mm, degree = (ini.getlinearunits("TRAJ", "LINEAR_UNITS", fallback=1.0),
+                  ini.getangularunits("TRAJ", "ANGULAR_UNITS", fallback=1.0))
     joints = []
     for n, letter in enumerate(joint_axes(module_words, coordinates, ini.getint("KINS", "JOINTS", fallback=3))):
         linear = (ini.find(f"JOINT_{n}", "TYPE") or "LINEAR").upper() == "LINEAR"
@@ -147,16 +156,23 @@ def read(path):
         joints.append(Joint(n, "LINEAR" if linear else "ANGULAR", letter, tuple(scaled[:2]), *scaled[2:]))
     settings = Settings(
         folder=Path(path).resolve().parent, enable=ini.getbool(section, "ENABLE", fallback=True),
-        name=ini.find(section, "DEVICE_NAME") or ini.find("EMC", "MACHINE") or "linuxcnc", uuid=ini.find(section, "UUID") or "linuxcnc-0001",
-        transports=transports, http_port=ini.getint(section, "HTTP_PORT", fallback=5000), http_bind=ini.find(section, "HTTP_BIND") or "127.0.0.1",
-        shdr_port=ini.getint(section, "SHDR_PORT", fallback=7878), shdr_bind=ini.find(section, "SHDR_BIND") or "127.0.0.1",
-        sample_hz=ini.getreal(section, "SAMPLE_HZ", fallback=10.0), broker=ini.find(section, "MQTT_BROKER") or "localhost",
-        mqtt_port=ini.getint(section, "MQTT_PORT", fallback=1883), mqtt_prefix=ini.find(section, "MQTT_PREFIX") or "MTConnect",
+        name=ini.find(section, "DEVICE_NAME") or ini.find("EMC", "MACHINE") or "linuxcnc",
+        uuid=ini.find(section, "UUID") or "linuxcnc-0001",
+        transports=transports, http_port=ini.getint(section, "HTTP_PORT", fallback=5000),
+        http_bind=ini.find(section, "HTTP_BIND") or "127.0.0.1",
+        shdr_port=ini.getint(section, "SHDR_PORT", fallback=7878),
+        shdr_bind=ini.find(section, "SHDR_BIND") or "127.0.0.1",
+        sample_hz=ini.getreal(section, "SAMPLE_HZ", fallback=10.0),
+        broker=ini.find(section, "MQTT_BROKER") or "localhost",
+        mqtt_port=ini.getint(section, "MQTT_PORT", fallback=1883),
+        mqtt_prefix=ini.find(section, "MQTT_PREFIX") or "MTConnect",
         mqtt_user=ini.find(section, "MQTT_USERNAME") or ini.find(section, "MQTT_USER") or "",
         mqtt_password=ini.find(section, "MQTT_PASSWORD") or ini.find(section, "MQTT_PASS") or "",
         axes=axes, mm=mm, degree=degree, module=module, module_words=module_words, joints=joints, axis_limits={},
-        spindle_limits=tuple(next((v for v in (number("SPINDLE_0", name), number("SPINDLE", name)) if v is not None), None)
+        spindle_limits=tuple(next((v for v in (number("SPINDLE_0", name), number("SPINDLE", name)) if v is not None),
+                                  None)
                              for name in ("MIN_FORWARD_VELOCITY", "MAX_FORWARD_VELOCITY")))
     for letter in axes:
-        settings.axis_limits[letter] = tuple(settings.scaled(letter, number(f"AXIS_{letter}", name)) for name in ("MIN_LIMIT", "MAX_LIMIT"))
+        settings.axis_limits[letter] = tuple(settings.scaled(letter, number(f"AXIS_{letter}", name))
+                                             for name in ("MIN_LIMIT", "MAX_LIMIT"))
     return settings, ini

@@ -69,8 +69,10 @@ def one_cycle(dump: Path, names: dict[str, str]) -> dict[str, int]:
 def measure(machine: str, moving: bool, folder: Path) -> dict[str, list[int]]:
     """Instructions in each cycle, by function."""
     env = dict(os.environ, KERF_INSTANCE="bench-motion", KERF_CLOCK="virtual", KERF_CLOCK_HANG_S="600",
-               MOTION_BENCH_UNDER=f"valgrind --tool=callgrind --dump-after=motion_controller --callgrind-out-file={folder}/dump",
-               PYTHONPATH=f"{TOP}/tests/motion/lib:{TOP}/lib/python", PATH=f"{TOP}/scripts:{TOP}/bin:{os.environ['PATH']}")
+               MOTION_BENCH_UNDER=f"valgrind --tool=callgrind --dump-after=motion_controller "
+                                  f"--callgrind-out-file={folder}/dump",
+               PYTHONPATH=f"{TOP}/tests/motion/lib:{TOP}/lib/python",
+               PATH=f"{TOP}/scripts:{TOP}/bin:{os.environ['PATH']}")
     script = DRIVER.format(machine=MACHINES[machine], cycles=CYCLES, moving=moving)
     subprocess.run(["/usr/bin/python3", "-c", script], env=env, check=True, capture_output=True, text=True)
     cycles: dict[str, list[int]] = {}
@@ -98,11 +100,13 @@ def main() -> None:
     for c in columns:
         with tempfile.TemporaryDirectory() as folder:
             found[c] = measure(*c, Path(folder))
-    print("instructions of a servo cycle, median / worst" + "".join(f"{m + (' moving' if on else ' idle'):>16}" for m, on in columns))
+    print("instructions of a servo cycle, median / worst"
+          + "".join(f"{m + (' moving' if on else ' idle'):>16}" for m, on in columns))
     names = sorted({n for cycles in found.values() for n in cycles},
                    key=lambda n: -max(statistics.median(c.get(n, [0])) for c in found.values()))
     for name in names:
-        print(f"{name:45}" + "".join(f"{statistics.median(v):8.0f} /{max(v):6d}" for v in (found[c].get(name, [0]) for c in columns)))
+        print(f"{name:45}" + "".join(f"{statistics.median(v):8.0f} /{max(v):6d}"
+                                     for v in (found[c].get(name, [0]) for c in columns)))
 
 
 main()

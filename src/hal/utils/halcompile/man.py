@@ -15,7 +15,8 @@ from . import adoc
 from .checker import Component
 
 _TROFF_REQUEST = re.compile(
-    r"\.(?:B|BI|BR|I|IB|IR|RB|RI|SB|SM|IP|TP|HP|LP|P|PP|RS|RE|EX|EE|SH|SS|UR|UE)(?: |$)|\.(?:br|sp|ie|if|nf|fi|in|ti)\b|\.\\\"")
+    r"\.(?:B|BI|BR|I|IB|IR|RB|RI|SB|SM|IP|TP|HP|LP|P|PP|RS|RE|EX|EE|SH|SS|UR|UE)(?: "
+    r"|$)|\.(?:br|sp|ie|if|nf|fi|in|ti)\b|\.\\\"")
 _TROFF_ESCAPE = re.compile(r"\\f[BIRP]|\\-|\\&|\\e|\\\(..")
 _FENCES = ("----", "....", "|===", "====", "```", "____", "****", "--")
 

@@ -15,4 +15,5 @@ print("opened", c.wait_complete(30))
 c.auto(linuxcnc.AUTO_RUN, 0)
 print("ran", c.wait_complete(60))
 s.poll()
-print([round(p, 3) for p in s.position[:3]], s.interp_state == linuxcnc.INTERP_IDLE, s.file.rsplit("/", 1)[-1].startswith("sent.ngc."), e.poll())
+print([round(p, 3) for p in s.position[:3]], s.interp_state == linuxcnc.INTERP_IDLE,
+      s.file.rsplit("/", 1)[-1].startswith("sent.ngc."), e.poll())
