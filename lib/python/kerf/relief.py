@@ -265,11 +265,9 @@ def convert(grey, settings, target, progress=lambda percent: None):
         levels.append(rough)
     levels.append(finish)
     writer = Gcode(safetyheight=settings.safety_height, tolerance=settings.tolerance,
-                   units=UNITS[settings.units], target=target)
+                   units=UNITS[settings.units], target=target, spindle_speed=settings.spindle_speed)
     writer.begin()
     writer.continuous(settings.tolerance)
-    if settings.spindle_speed > 0:
-        writer.write("M3 S%g" % settings.spindle_speed)
     for n, tool_map in enumerate(levels):
         for by_rows, keep in directions(settings, tool_map):
             writer.set_plane(18 if by_rows else 19)

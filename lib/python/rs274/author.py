@@ -26,6 +26,7 @@ def _distances(points, first, last):
 
 
 LONG = 64  # points
+RUN_UP_S = 3
 # Plane codes: the axes that the arc turns in, its normal axis and the centre words.
 _PLANES = {17: (0, 1, 2, "IJ"), 18: (2, 0, 1, "KI"), 19: (1, 2, 0, "JK")}
 
@@ -94,8 +95,10 @@ def simplify(points, tolerance, plane=None):
 
 
 class Gcode:
-    def __init__(self, homeheight=1.5, safetyheight=0.04, tolerance=0.001, units="G20", target=print):
+    def __init__(self, homeheight=1.5, safetyheight=0.04, tolerance=0.001, units="G20", target=print, spindle_speed=1000):
+        """spindle_speed: rpm that begin() starts the spindle with; 0: it does not."""
         self.homeheight, self.safetyheight = homeheight, safetyheight
+        self.spindle_speed = spindle_speed
         self.tolerance = tolerance
         self.units = units
         self.target = target
@@ -114,14 +117,16 @@ class Gcode:
         return text.rstrip("0").rstrip(".") if "." in text else text
 
     def begin(self):
-        """Units, absolute distance, plane XY, feed a minute, exact path; up to the safety height."""
+        """Units, absolute distance, plane XY, feed a minute; up to the safety height; the spindle turns."""
         self.write(self.units)
         self.write("G17 G40 G49 G80 G90 G94")
         self.plane = 17
-        self.write("G61")
         self.write("G0 Z%s" % self._number(self.safetyheight))
         self.lastz = self.safetyheight
         self.lastgcode = "G0"
+        if self.spindle_speed > 0:
+            self.write("S%g M3" % self.spindle_speed)
+            self.write("G4 P%d" % RUN_UP_S)
 
     def end(self):
         self.flush()
