@@ -5,6 +5,7 @@ No widgets here: the same scenes are drawn on the screen and, for tests and pict
 Inches.
 """
 
+import numpy as np
 from kerf.glpath import Item, Scene
 
 from . import shapes
@@ -18,16 +19,25 @@ COLOURS = {     # names of the X resources *Togl.<name>
     "axis_x": "#33ff33", "axis_y": "#ff3333", "axis_z": "#3333ff", "cone": "#ffffff", "cone_xy": "#00ff00", "cone_uv": "#0000ff",
     "overlay_foreground": "#ffffff", "overlay_background": "#000000", "box": "#91adb5", "dwell": "#ff8080", "m1xx": "#8080ff",
     "lathetool": "#cccccc", "tool_diffuse": "#999999", "straight_feed_xy": "#40ff40", "arc_feed_xy": "#40ff40",
-    "straight_feed_uv": "#4040ff", "arc_feed_uv": "#4040ff", "traverse_xy": "#4c8080", "traverse_uv": "#4c8080"}
-ALPHA = {"overlay_alpha": 0.75, "traverse_alpha": 1 / 3, "straight_feed_alpha": 1 / 3, "arc_feed_alpha": 0.5, "tool_alpha": 0.2, "lathetool_alpha": 0.1}
-# motion types of the logger: jog, traverse, feed, arc, tool change, probe
-PLOT = ((255, 255, 0, 190), (76, 128, 128, 64), (192, 64, 64, 190), (192, 64, 128, 190), (255, 165, 0, 64), (160, 32, 240, 190))
+    "straight_feed_uv": "#4040ff", "arc_feed_uv": "#4040ff", "traverse_xy": "#4c8080", "traverse_uv": "#4c8080",
+    "backplotjog": "#ffff00", "backplottraverse": "#4c8080", "backplotfeed": "#c04040", "backplotarc": "#c04080", "backplottoolchange": "#ffa500",
+    "backplotprobing": "#a020f0"}
+ALPHA = {"overlay_alpha": 0.75, "traverse_alpha": 1 / 3, "straight_feed_alpha": 1 / 3, "arc_feed_alpha": 0.5, "tool_alpha": 0.2, "lathetool_alpha": 0.1} | {
+    f"{name}_alpha_{plane}": 1 / 3 for name in ("traverse", "straight_feed", "arc_feed") for plane in ("xy", "uv")} | {
+    "backplotjog_alpha": 0.75, "backplottraverse_alpha": 0.25, "backplotfeed_alpha": 0.75, "backplotarc_alpha": 0.75, "backplottoolchange_alpha": 0.25,
+    "backplotprobing_alpha": 0.75}
+PLOT = "jog", "traverse", "feed", "arc", "toolchange", "probing"        # motion types, in the logger's order
 CONE_RADIUS, CONE_HEIGHT = 0.1, 0.25
 NO_LIMIT = 1e30
 
 
 def rgb(text, alpha=1.0):
     return (int(text[1:3], 16) / 255, int(text[3:5], 16) / 255, int(text[5:7], 16) / 255, alpha)
+
+
+def plot_colours(colours, alpha):
+    """Of linuxcnc.positionlogger: four numbers 0..255 for each motion type."""
+    return [tuple(round(255 * v) for v in rgb(colours["backplot" + name], alpha[f"backplot{name}_alpha"])) for name in PLOT]
 
 
 class Composer:
@@ -42,6 +52,7 @@ class Composer:
         self.foam_z, self.foam_w = settings.foam_z, settings.foam_w
         self.program = None
         self.drawings = []
+        self.unturned = None, None      # (degrees, centre), extents as they are without that rotation
         self.boxed = False              # only the bounding box is shown
         self.stat = None
         self.readout_lines = []
@@ -54,6 +65,7 @@ class Composer:
     def set_program(self, program, drawings, boxed=False):
         """program: reading.Program; drawings: kerf_raster.Drawing of each place; boxed: only its bounding box is drawn."""
         self.program, self.boxed, self.drawings = program, boxed, drawings
+        self.unturned = None, None
         if program is not None:
             self.foam_z = program.foam_z if program.foam_z is not None else self.s.foam_z
             self.foam_w = program.foam_w if program.foam_w is not None else self.s.foam_w
@@ -79,12 +91,20 @@ class Composer:
             return tuple(map(min, *(e[0] for e in drawn), drawn[0][0])), tuple(map(max, *(e[1] for e in drawn), drawn[0][1]))
         return self.extents() or self.limits() or ((0, 0, 0), (1, 1, 1))
 
-    def extents(self, unrotated=False):
-        """Least and greatest of the program (without tool lengths), or None."""
+    def extents(self, turn=0.0, about=(0.0, 0.0)):
+        """Least and greatest of the program (without tool lengths), or None. turn: along axes X and Y that are turned by that
+        many degrees, told as if the program were turned back about a point."""
         p = self.program
         if p is None or p.n_moves == 0:
             return None
-        low, high = p.extents_zero_rxy if unrotated else p.extents
+        low, high = p.extents
+        if turn and self.drawings:
+            if self.unturned[0] != (turn, about):
+                drawn = np.asarray(self.drawings[0].vertices)
+                t, x, y = np.radians(turn), drawn[:, 0] - about[0], drawn[:, 1] - about[1]
+                u, v = x * np.cos(t) + y * np.sin(t) + about[0], y * np.cos(t) - x * np.sin(t) + about[1]
+                self.unturned = (turn, about), ((u.min(), v.min()), (u.max(), v.max()))
+            low, high = ((*flat, end[2]) for flat, end in zip(self.unturned[1], (low, high)))
         if not all(abs(v) < NO_LIMIT for v in (*low, *high)):
             return None
         if self.s.foam:
@@ -115,7 +135,7 @@ class Composer:
         for suffix in ("_xy", "_uv") if self.s.foam else ("",):
             row = []
             for name in ("traverse", "straight_feed", "arc_feed"):
-                row.append(self.colour(name + suffix, self.alpha[name + "_alpha"] if o.program_alpha else 1.0))
+                row.append(self.colour(name + suffix, self.alpha[name + "_alpha" + suffix] if o.program_alpha else 1.0))
             if not o.show_rapids:
                 row[0] = (0.0, 0.0, 0.0, 0.0)
             lists.append(row)
@@ -174,14 +194,14 @@ class Composer:
         shown = bool(o.show_program) and not self.boxed
         relative = self.stat is not None and bool(o.coord_type)
         turn = self.stat.rotation_xy if relative else 0.0
-        extents = self.extents(unrotated=bool(turn))
+        about = tuple(self.unit * v for v in self.stat.g5x_offset[:2]) if turn else (0.0, 0.0)
+        extents = self.extents(turn, about)
         if extents is None or not (o.show_extents or not shown):
             return []
         low, high = extents
         if not shown:
             self.scene.after.append(self.item(shapes.box(*self.extents()), "box"))
         zero = self.offset() if relative else (0.0, 0.0, 0.0)
-        about = [self.unit * v for v in self.stat.g5x_offset[:2]] if turn else (0.0, 0.0)
         labels = []
         out = self.camera.basis()[2]
         for axis in range(3):

@@ -7,7 +7,7 @@ Scenes are made by compose; a picture shows them: with OpenGL (glpicture) or dra
 import tkinter as tk
 
 from .camera import LATHE
-from .compose import Composer, rgb
+from .compose import Composer, plot_colours, rgb
 
 SETTLE_MS = 120          # after the last change of the view the exact picture begins
 STEP_MS = 10
@@ -62,6 +62,7 @@ class Preview(Composer, tk.Frame):
                 self.alpha[name] = min(1.0, max(0.0, float(self.option_get(name, name.capitalize()) or self.alpha[name])))
             except ValueError:
                 print(f"axis: *Togl.{name} is no number")
+        self.logger.set_colors(*plot_colours(self.colours, self.alpha))
 
     # -- mouse -----------------------------------------------------------------------------
 

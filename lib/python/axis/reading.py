@@ -31,8 +31,6 @@ class Program:
     dwell_time: float = 0.0
     extents: tuple = ((0.0,) * 3, (0.0,) * 3)
     extents_tool: tuple = ((0.0,) * 3, (0.0,) * 3)
-    extents_zero_rxy: tuple = ((0.0,) * 3, (0.0,) * 3)
-    extents_tool_zero_rxy: tuple = ((0.0,) * 3, (0.0,) * 3)
     tools: list = field(default_factory=list)
     messages: list = field(default_factory=list)
     result: int = 0

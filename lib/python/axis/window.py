@@ -11,7 +11,7 @@ from kerf.tree import Tree
 
 from . import commands as command_table
 from .codeview import CodeView
-from .compose import PLOT
+from .compose import ALPHA, COLOURS, plot_colours
 from .dro import Readout
 from .jog import Jogger, position, speed
 from .keys import Keys
@@ -89,7 +89,7 @@ class WindowPart(LooksPart):
         self.notifications = Notifications(root, self.errors_shown, self.style.px(WRAP_PX))
         self.jogger = Jogger(self)
         self.restore()
-        self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *PLOT, s.geometry, s.foam)
+        self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *plot_colours(COLOURS, ALPHA), s.geometry, s.foam)
         self.options = Options(self.vars, cone_size=self.cone_size(), cone_scaling=not s.flag("DISPLAY", "DISABLE_CONE_SCALING"),
                                min_tool_diameter=s.real(("DISPLAY", "GCODE_VIEW_TOOL_MIN_DIA"), default=0.0))
         self.preview = Preview(self.widgets.preview_frame, s, self.options, self.logger, self.letters_px())

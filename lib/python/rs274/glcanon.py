@@ -114,10 +114,7 @@ class GLCanon(Translated, ArcsToSegmentsMixin):
 
     # ---- moves ----
     def _record(self, kind, end, feed=0.0):
-        rotation = None
-        if self.rotation_xy:
-            rotation = self.rotation_cos, self.rotation_sin, self.g5x_offset_x, self.g5x_offset_y
-        self.program_geometry.add_move(self.lineno, kind, self.lo, end, feed, (self.xo, self.yo, self.zo), rotation)
+        self.program_geometry.add_move(self.lineno, kind, self.lo, end, feed, (self.xo, self.yo, self.zo))
 
     def straight_traverse(self, x, y, z, a, b, c, u, v, w):
         if self.suppress > 0:
@@ -185,7 +182,9 @@ class GLCanon(Translated, ArcsToSegmentsMixin):
 
     # ---- results ----
     def calc_extents(self):
+        """"zero_rxy": as if the program were turned back by the rotation that is in force now, after its end."""
         g = self.program_geometry
+        g.rotation = self.rotation_cos, self.rotation_sin, self.g5x_offset_x, self.g5x_offset_y
         self.min_extents, self.max_extents = g.extents
         self.min_extents_notool, self.max_extents_notool = g.extents_notool
         self.min_extents_zero_rxy, self.max_extents_zero_rxy = g.extents_zero_rxy

@@ -79,7 +79,9 @@ class ProgramGeometry:
         self._uv = array("f")
         self._lines, self._kinds, self._tools = array("i"), array("B"), array("i")
         self._tool_numbers = [None]
-        self._boxes = [_Box() for _ in range(4)]
+        self._ends = array("d")         # x y z of each piece's ends, tool offset in x y z
+        self._last_end = None
+        self.rotation = 1.0, 0.0, 0.0, 0.0      # (cos, sin, x0, y0) that extents_zero_rxy turns back
         self._drawn = _Box()
         self._where = None
         self._feeds = {}
@@ -116,8 +118,8 @@ class ProgramGeometry:
         if kind <= ARC:
             self._drawn.add(x, y, z)
 
-    def add_move(self, line, kind, start, end, feed=0.0, tool_offset=(0.0, 0.0, 0.0), rotation=None):
-        """A straight piece. rotation: (cos, sin, x0, y0) of the work system, for extents without it."""
+    def add_move(self, line, kind, start, end, feed=0.0, tool_offset=(0.0, 0.0, 0.0)):
+        """A straight piece."""
         if self._where != start:
             self._vertex(line, JUMP, start)
         turn = max(abs(e - s) for s, e in zip(start[3:6], end[3:6]))
@@ -128,8 +130,9 @@ class ProgramGeometry:
         self._vertex(line, kind, end)
         self._where = end
         self.n_moves += 1
-        for p in (start, end):
-            self._measure(p, tool_offset, rotation)
+        for p in (end,) if self._last_end == (start, tool_offset) else (start, end):
+            self._ends.extend((*p[:3], *tool_offset[:3]))
+        self._last_end = end, tool_offset
         length = math.dist(start[:3], end[:3])
         if kind == TRAVERSE:
             self.rapid_length += length
@@ -137,22 +140,10 @@ class ProgramGeometry:
             self.cutting_length += length
             self._feeds[feed] = self._feeds.get(feed, 0.0) + length
 
-    def add_moves(self, moves, kind, tool_offset=(0.0, 0.0, 0.0), rotation=None):
+    def add_moves(self, moves, kind, tool_offset=(0.0, 0.0, 0.0)):
         """Pieces in order: (line, start, end) or (line, start, end, feed)."""
         for move in moves:
-            self.add_move(move[0], kind, move[1], move[2], move[3] if len(move) > 3 else 0.0, tool_offset, rotation)
-
-    def _measure(self, p, t, rotation):
-        x, y, z = p[0], p[1], p[2]
-        boxes = self._boxes
-        boxes[0].add(x, y, z)
-        boxes[1].add(x + t[0], y + t[1], z + t[2])
-        if rotation is not None:
-            c, s, x0, y0 = rotation
-            dx, dy = x - x0, y - y0
-            x, y = dx * c + dy * s + x0, dy * c - dx * s + y0
-        boxes[2].add(x, y, z)
-        boxes[3].add(x + t[0], y + t[1], z + t[2])
+            self.add_move(move[0], kind, move[1], move[2], move[3] if len(move) > 3 else 0.0, tool_offset)
 
     def mark_jump(self, line, position):
         """The tool is somewhere else without a drawn move."""
@@ -198,22 +189,33 @@ class ProgramGeometry:
     def is_empty(self):
         return self.n_moves == 0
 
+    def _extents(self, tool, turned_back=False):
+        """Least and greatest of the controlled point; tool: with the tool offset added (which is not turned)."""
+        if not self._ends:
+            return [0.0] * 3, [0.0] * 3
+        x, y, z, *offset = numpy.array(self._ends).reshape(-1, 6).T
+        if turned_back:
+            c, s, x0, y0 = self.rotation
+            x, y = (x - x0) * c + (y - y0) * s + x0, (y - y0) * c - (x - x0) * s + y0
+        ends = [v + t if tool else v for v, t in zip((x, y, z), offset)]
+        return [float(v.min()) for v in ends], [float(v.max()) for v in ends]
+
     # "notool": of the controlled point itself; the others have the tool offset added.
     @property
     def extents_notool(self):
-        return self._foam(self._boxes[1].value)
+        return self._foam(self._extents(True))
 
     @property
     def extents(self):
-        return self._foam(self._boxes[0].value)
+        return self._foam(self._extents(False))
 
     @property
     def extents_zero_rxy(self):
-        return self._boxes[2].value
+        return self._extents(False, True)
 
     @property
     def extents_notool_zero_rxy(self):
-        return self._boxes[3].value
+        return self._extents(True, True)
 
     @property
     def drawn_extents(self):

@@ -20,14 +20,15 @@ from types import SimpleNamespace
 import gcode
 import kerf_raster
 import numpy as np
-from axis.compose import ALPHA, COLOURS, PLOT, Composer
+from axis.compose import ALPHA, COLOURS, Composer
 from axis.dro import Readout
 from axis.settings import LETTERS, MM_PER_INCH
 from kerf.glpath import Renderer
 
 VIEWS = "x", "y", "z", "p"          # of get_view()
 CONE_BASESIZE = 0.5
-PLOT_NAMES = "jog", "traverse", "feed", "arc", "toolchange", "probing"
+PLOT = (("jog", (1., 1., 0.), .75), ("traverse", (.3, .5, .5), .25), ("feed", (.75, .25, .25), .75), ("arc", (.75, .25, .5), .75),
+        ("toolchange", (1., .65, 0.), .25), ("probing", (.63, .13, .94), .75))
 PICK_PX = 5.0
 LETTER_PX = 13
 
@@ -44,7 +45,6 @@ class Recorded:
         record = self.record = canon.program_geometry
         self.n_moves, self.foam_z, self.foam_w = record.n_moves, canon.foam_z, canon.foam_w
         self.extents, self.extents_tool = record.extents, record.extents_notool         # "notool": with the tool offset
-        self.extents_zero_rxy = record.extents_zero_rxy
         m1xx = canon.colors.get("m1xx")
         marks = [(m1xx is not None and colour == m1xx, (x, y, z, plane)) for _, colour, x, y, z, plane in canon.dwells]
         self.mark_places = tuple(np.array([at for user_m, at in marks if user_m == kind], np.float32).tobytes() for kind in (False, True))
@@ -68,8 +68,8 @@ class GlCanonDraw:
     """
 
     colors = {name: shares(text) for name, text in COLOURS.items()} | ALPHA | {
-        f"backplot{name}": tuple(v / 255 for v in colour[:3]) for name, colour in zip(PLOT_NAMES, PLOT)} | {
-        f"backplot{name}_alpha": colour[3] / 255 for name, colour in zip(PLOT_NAMES, PLOT)}
+        f"{name}_{plane}": colour for name in ("straight_feed", "arc_feed") for plane, colour in (("xy", (.2, 1., .2)), ("uv", (.2, .2, 1.)))} | {
+        f"backplot{name}": colour for name, colour, _ in PLOT} | {f"backplot{name}_alpha": alpha for name, _, alpha in PLOT} | {"tool_ambient": (.4,) * 3}
 
     def __init__(self, s=None, lp=None, g=None):
         """s: linuxcnc.stat(); lp: linuxcnc.positionlogger() or None; g: the canon shown first."""
@@ -265,7 +265,7 @@ class GlCanonDraw:
         scenes = self._preview_scenes
         scenes.stat, scenes.options = self.stat, self._preview_options()
         for name, value in self.colors.items():
-            if name.endswith("_alpha"):
+            if "_alpha" in name:
                 scenes.alpha[name] = value
             elif name in scenes.colours:
                 scenes.colours[name] = "#%02x%02x%02x" % tuple(round(255 * v) for v in value[:3])

@@ -270,10 +270,6 @@ void bind_program(py::module_ &m)
                             "((x,y,z) least, (x,y,z) greatest) of the controlled point.");
     c.def_property_readonly("extents_tool", [](const ProgramPath &p) { return box_value(p.extents); },
                             "The same with the tool offset added.");
-    c.def_property_readonly("extents_zero_rxy",
-                            [](const ProgramPath &p) { return box_value(p.extents_notool_unrotated); });
-    c.def_property_readonly("extents_tool_zero_rxy",
-                            [](const ProgramPath &p) { return box_value(p.extents_unrotated); });
     c.def_property_readonly("tools", [](const ProgramPath &p) {
         py::list l;
         for (const auto &[vertex, tool] : p.tool_changes) l.append(py::make_tuple(vertex, tool));

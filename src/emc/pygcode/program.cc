@@ -271,16 +271,6 @@ class PathCanon final : public PreviewCanon
     {
         path.extents.add(p[0] + tool[0], p[1] + tool[1], p[2] + tool[2]);
         path.extents_notool.add(p[0], p[1], p[2]);
-        if (frame.sine == 0) {
-            path.extents_unrotated.add(p[0] + tool[0], p[1] + tool[1], p[2] + tool[2]);
-            path.extents_notool_unrotated.add(p[0], p[1], p[2]);
-            return;
-        }
-        const double dx = p[0] - frame.g5x[0], dy = p[1] - frame.g5x[1];
-        const double x = dx * frame.cosine + dy * frame.sine + frame.g5x[0];
-        const double y = -dx * frame.sine + dy * frame.cosine + frame.g5x[1];
-        path.extents_unrotated.add(x + tool[0], y + tool[1], p[2] + tool[2]);
-        path.extents_notool_unrotated.add(x, y, p[2]);
     }
     void piece(int line, const Point9 &to, PathKind kind)
     {

@@ -84,7 +84,7 @@ struct ProgramPath {
     std::vector<std::pair<uint32_t, int>> tool_changes; // vertex, tool number; the first MOST_CHANGES
     std::vector<ProgramMark> marks;                     // of a very long program every n-th
     std::vector<std::string> messages;
-    Box extents, extents_notool, extents_unrotated, extents_notool_unrotated;
+    Box extents, extents_notool;
     double rapid_length = 0, cutting_length = 0, dwell_time = 0;
     std::map<float, double> feed_lengths; // cutting length by feed rate
     size_t moves = 0;

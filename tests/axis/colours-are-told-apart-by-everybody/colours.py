@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # Colours that mean different things in the preview, as people see them who do not tell red from green (Machado, Oliveira and Fernandes 2009, severity 1).
 import numpy as np
-from axis.compose import COLOURS, PLOT
+from axis.compose import ALPHA, COLOURS, PLOT, plot_colours
 from axis import looks
 from kerf import tkstyle
 
@@ -47,15 +47,15 @@ def on_ground(rgba):
     return tuple(g + (c - g) * rgba[3] / 255 for c, g in zip(rgba, ground))
 
 
-plot = {name: on_ground(c) for name, c in zip(("jog", "traverse", "feed", "arc", "tool change", "probe"), PLOT)}
+plot = {name: on_ground(c) for name, c in zip(PLOT, plot_colours(COLOURS, ALPHA))}
 # What only its colour tells. Axes have letters, labels beyond the limits a box, the selected line is three pixels wide.
 PAIRS = [("straight_feed", "traverse"), ("traverse", "selected"), ("straight_feed_xy", "straight_feed_uv"),
          ("straight_feed_xy", "traverse_xy"), ("straight_feed_uv", "traverse_uv"), ("dwell", "m1xx"), ("dwell", "straight_feed"), ("limits", "grid"),
          ("limits", "straight_feed")]
 PAIRS = [(a, b, COLOURS[a], COLOURS[b]) for a, b in PAIRS]
-PAIRS += [(f"plot of {a}", "program", plot[a], COLOURS["straight_feed"]) for a in ("jog", "feed", "arc", "probe")]
+PAIRS += [(f"plot of {a}", "program", plot[a], COLOURS["straight_feed"]) for a in ("jog", "feed", "arc", "probing")]
 PAIRS += [(f"plot of {a}", f"plot of {b}", plot[a], plot[b]) for a, b in (("jog", "feed"), ("jog", "traverse"), ("feed", "traverse"), ("arc", "traverse"),
-                                                                        ("jog", "probe"), ("traverse", "probe"))]
+                                                                        ("jog", "probing"), ("traverse", "probing"))]
 for eye in EYES:
     rows = [(difference(a, b, eye), one, other) for one, other, a, b in PAIRS]
     print(eye, "too near:", [f"{one} / {other} {d:.0f}" for d, one, other in rows if d < LEAST])

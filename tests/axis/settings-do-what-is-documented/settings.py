@@ -92,6 +92,9 @@ def everything(op):
     op.wait(0.2)
     with open("history.txt") as f:
         print("history:", f.read().split("\n"))
+    op.idle()
+    op.until(lambda: app.logger.points()[1] > 1, "plotted points")
+    print("X resources: plot of what stands:", struct.unpack("3f4B3f4B", app.logger.points()[0][-32:])[3:7], "selected line:", app.preview.colours["selected"])
     print("tkapp:", tcl.getvar("from_app"))
     for _ in range(300):
         if os.path.exists("edited"):

@@ -6,6 +6,7 @@ screen_test() { # as in the library, with more files beside the INI file
     sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" machine/$1.ini
     sed -i "$ini_edit" machine/$1.ini
     cp "$top/nc_files/star.ngc" machine/; cp "$top/nc_files/foam_wing.ngc" machine/wing.ngc; echo "set from_app yes" > machine/app.tcl; echo "a picture" > "machine/spaced name.spiral"
+    printf '*Togl.%s\n' "backplotjog: #00ff00" "backplotjog_alpha: .5" "selected: red" > home/.Xdefaults
     HOME=$PWD/home "$top/tests/lib/with-display" linuxcnc -r -D "$PWD/$2" machine/$1.ini > screen.log 2> screen.err < /dev/null
     echo "status $?"
 }

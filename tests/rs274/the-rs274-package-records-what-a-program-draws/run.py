@@ -92,6 +92,18 @@ with tempfile.TemporaryDirectory() as d:
     result, c = preview("G10 L2 P1 X1 Y1 R90\nG1 F9 X0 Y0\nX2\nM2\n")
     check(near(c.max_extents, [1, 3, 0], 1e-6) and near(c.max_extents_zero_rxy[:2], [3, 2], 1e-6),
           (c.max_extents, c.max_extents_zero_rxy))
+    # Several rotations: all is turned back by the one that is in force at the end (M2 goes to G54).
+    first = "G10 L2 P1 X3 Y1 R30\n"
+    for text, low, high in (("G1 F9 X0 Y0\nX2 Y1\nG10 L2 P1 X1 Y2 R60\nX2 Y0\nM2\n", [-1.2321, -.366], [3.366, 2]),
+                            ("G10 L2 P2 X1 Y2 R0\nG1 F9 X0 Y0\nX2 Y1\nG55\nX2 Y0\nM2\n", [-.0981, 1], [5, 2])):
+        _, c = preview(first + text)
+        found = c.min_extents_zero_rxy, c.max_extents_zero_rxy
+        check(near(found[0][:2], low, 1e-4) and near(found[1][:2], high, 1e-4), found)
+    _, c = preview(first + "G43.1 Z1 X2\nG1 F9 X0 Y0\nX2 Y1\nM2\n")
+    check(near(c.max_extents_zero_rxy, [5, 2.634, -1], 1e-3) and
+          near(c.max_extents_notool_zero_rxy, [7, 2.634, 0], 1e-3), "the tool offset is not turned")
+    _, c = preview("T1 M6\nG1 Z5 X1 F9\nG43 H1\nG1 X2\nM2\n")
+    check(c.min_extents == c.min_extents_notool == [0, 0, 0], "the place where a tool change leaves the machine counts")
 
     # Directives in comments.
     result, c = preview("G1 X1 F9\n(AXIS,hide)\nG1 X50\n(PREVIEW,show)\n(AXIS,notify,look here, please)\nX2\n"
@@ -172,6 +184,11 @@ w.home()
 w.end()
 check(lines[0] == "G20" and lines[-1] == "M2" and "G64 P0.01" in lines and "G61" in lines and "G18" in lines
       and len(lines) < 40, lines)
+check(lines[2:5] == ["G0 Z0.5", "S1000 M3", "G4 P3"], f"the spindle turns before it cuts: {lines[:5]}")
+for speed, want in ((2500, 1), (0, 0)):
+    lines = []
+    Gcode(target=lines.append, spindle_speed=speed).begin()
+    check(lines.count("S2500 M3") == want == len([l for l in lines if "M3" in l]), f"{speed}: {lines}")
 teeth = [(n / 100, 0., -.1 * (n % 2)) for n in range(5000)]
 check([p[1] for p in simplify(teeth, .001, 18)] == teeth[1:], "thousands of teeth of one height")
 done()
