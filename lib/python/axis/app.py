@@ -14,6 +14,7 @@ import traceback
 import linuxcnc
 from kerf import clock, gl, language, tkstyle
 from kerf.failures import Recorder
+from kerf.language import N_
 from kerf.tktools import ngcgui_tabs
 from kerf.tree import Tree
 
@@ -36,6 +37,7 @@ from .window import WindowPart
 OFTEN = ("redraw_soon", "redraw", "redraw_dro")      # not worth a note
 STATUS_TRIES = 9
 MAXVEL_QUIET_S = 1.0     # after an own change the slider does not follow the status
+HOMING = N_("Homing is going on: wait for its end, or stop it (Escape).")
 NO_STATUS = ("A configuration error is preventing LinuxCNC from starting.\n"
              "More information may be available when running from a terminal.")
 
@@ -162,8 +164,15 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
             (s.task_mode == linuxcnc.MODE_MDI and s.queued_mdi_commands < self.vars.max_queued_mdi_commands.get())
 
     def jog_allowed(self):
-        return self.manual_ok() and not self.running() and self.raised_tab() == "manual" and \
+        return self.manual_ok() and not self.running() and self.raised_tab() == "manual" and not self.refused_while_homing() and \
             self.ensure_mode(linuxcnc.MODE_MANUAL)
+
+    def goes_on(self):
+        """Something moves, or will: what a stop ends."""
+        self.stat.poll()
+        s = self.stat
+        return s.interp_state != linuxcnc.INTERP_IDLE or not s.inpos or bool(self.jogger.running) or self.homing() or \
+            any(spindle["enabled"] for spindle in s.spindle)
 
     def ensure_mode(self, mode, *others):
         """Brings task into the mode; True when it is there (or in one of the others)."""
@@ -190,12 +199,23 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.stat.poll()
         return all(self.stat.homed[:self.settings.joints])
 
+    def homing(self):
+        return any(j["homing"] for j in self.stat.joint[:self.settings.joints])
+
     def any_homing(self):
         self.stat.poll()
-        if any(j["homing"] for j in self.stat.joint[:self.settings.joints]):
+        if self.homing():
             print("axis: a joint is homing: wait for its end")
             return True
         return False
+
+    def refused_while_homing(self):
+        """True while a joint is homing: a jog, a program or an MDI line would end that half way. The operator is told."""
+        homing = self.any_homing()
+        if homing:
+            self.notifications.drop(lambda text: text == self.translate(HOMING))
+            self.notifications.add("info", self.translate(HOMING))
+        return homing
 
     def confirm_rehome(self, text):
         return dialogs.ask(self.root, self.translate("Warning"), text, "warning", 0, self.translate("Ok"),
@@ -412,6 +432,11 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         s, _ = self.settings, self.translate
         letter = self.vars.ja_rbutton.get().upper()
         if not self.manual_ok() or letter not in s.axes or (tool and self.stat.tool_in_spindle <= 0):
+            return
+        if self.running():               # where a touch off would take place is not known before the move's end
+            self.notifications.add("info", self.translate("No touch off while the machine moves."))
+            return
+        if self.refused_while_homing():
             return
         before, number = self.stat.task_mode, self.stat.tool_in_spindle
         metric = bool(self.vars.metric.get())

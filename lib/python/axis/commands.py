@@ -172,12 +172,12 @@ def make(app):
 
         def task_step(*event):
             s.poll()
-            if s.task_state != linuxcnc.STATE_ON:
+            if s.task_state != linuxcnc.STATE_ON or app.refused_while_homing():
                 return
             if s.interp_state == linuxcnc.INTERP_IDLE and (app.loading or not app.accept_limits() or not app.manual_ok()):
                 return
-            app.ensure_mode(linuxcnc.MODE_AUTO)
-            c.auto(linuxcnc.AUTO_STEP)
+            if app.ensure_mode(linuxcnc.MODE_AUTO):
+                c.auto(linuxcnc.AUTO_STEP)
 
         def task_pause(*event):
             s.poll()
@@ -199,10 +199,11 @@ def make(app):
                 commands.task_pause()
 
         def task_stop(*event):
+            s.poll()
             if app.loading:
                 app.cancel_loading = True
-                return
-            s.poll()
+                if not app.goes_on():
+                    return
             if s.task_mode == linuxcnc.MODE_AUTO and v.running_line.get() > 0:
                 app.set_highlight_line(v.running_line.get())
             app.jogger.stop_all()
@@ -245,6 +246,8 @@ def make(app):
             text = v.mdi_command.get().strip()
             s.poll()
             if not text or s.task_state != linuxcnc.STATE_ON or s.queued_mdi_commands >= v.max_queued_mdi_commands.get():
+                return
+            if app.refused_while_homing():
                 return
             if not app.ensure_mode(linuxcnc.MODE_MDI):
                 return
@@ -304,7 +307,7 @@ def make(app):
         # -- modes -------------------------------------------------------------------------
 
         def ensure_manual(*event):
-            if not app.manual_ok():
+            if not app.manual_ok() or app.running():         # an MDI line goes on
                 return
             s.poll()
             if (app.all_homed() and s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP) or s.motion_mode == linuxcnc.TRAJ_MODE_COORD:
@@ -315,7 +318,7 @@ def make(app):
                 app.set_motion_teleop(0)
 
         def ensure_mdi(*event):
-            if app.manual_ok():
+            if app.manual_ok() and not app.running():
                 app.set_motion_teleop(0)
                 app.ensure_mode(linuxcnc.MODE_MDI)
 
@@ -343,9 +346,8 @@ def make(app):
             app.jogger.stop("button")
 
         def home_all_joints(*event):
-            if not app.manual_ok() or app.any_homing():
+            if not app.manual_ok() or app.any_homing() or not app.ensure_mode(linuxcnc.MODE_MANUAL):
                 return
-            app.ensure_mode(linuxcnc.MODE_MANUAL)
             if app.all_homed() and not app.confirm_rehome(_("Joint is already homed, are you sure you want to re-home?")):
                 return
             app.set_motion_teleop(0)
@@ -355,7 +357,7 @@ def make(app):
             commands.unhome_joint_number(-1)
 
         def home_joint(*event):
-            if not app.manual_ok():
+            if not app.manual_ok() or app.running():
                 return
             joint = app.selected_joint()
             if joint is None:
@@ -367,16 +369,14 @@ def make(app):
             commands.home_joint_number(joint)
 
         def home_joint_number(joint):
-            if not app.manual_ok() or app.any_homing():
+            if not app.manual_ok() or app.any_homing() or not app.ensure_mode(linuxcnc.MODE_MANUAL):
                 return
-            app.ensure_mode(linuxcnc.MODE_MANUAL)
             app.set_motion_teleop(0)
             c.home(int(joint))
 
         def unhome_joint_number(joint):
-            if not app.manual_ok():
+            if not app.manual_ok() or not app.ensure_mode(linuxcnc.MODE_MANUAL):
                 return
-            app.ensure_mode(linuxcnc.MODE_MANUAL)
             app.set_motion_teleop(0)
             c.unhome(int(joint))
 

@@ -328,7 +328,7 @@ class OpeningPart:
     def run_from(self, line):
         def possible():
             return not self.loading and self.manual_ok() and not self.running() and self.loaded_file
-        if not possible() or not self.accept_limits() or not possible():     # much may happen meanwhile
+        if not possible() or self.refused_while_homing() or not self.accept_limits() or not possible():     # much may happen meanwhile
             return
         if line > 0:
             self.start_at(line)

@@ -26,6 +26,7 @@ NOTHING = [("L", SHIFT), ("O", SHIFT), ("T", SHIFT), ("p", ALT), ("q", 0), ("u",
 NOTHING += [(k, m) for m in (CONTROL, ALT, CONTROL | ALT) for k in "F2 F3 F5 F4 F7 F9 F11 b o t r s Escape l v d x 5 i c comma exclam dollar Home End k e space".split()
             if (k, m) not in KEYS]
 FULL = ("manual",)
+BUSY = ("moving", "mdimoving", "homing")
 NAMES = {value: name for name, value in vars(linuxcnc).items() if name.startswith("MODE_")}
 AUTO = {value: name for name, value in vars(linuxcnc).items() if name.startswith("AUTO_")}
 JOG = {value: name[4:].lower() for name, value in vars(linuxcnc).items() if name.startswith("JOG_")}
@@ -176,9 +177,13 @@ def look(op):
     seen |= {"power": STATES[s.task_state], "mode": NAMES[s.task_mode], "runs": s.interp_state != linuxcnc.INTERP_IDLE, "paused": bool(s.paused),
              "mist": s.mist, "flood": s.flood, "spindle": s.spindle[0]["direction"], "rpm": round(s.spindle[0]["speed"]), "brake": s.spindle[0]["brake"],
              "tab": str(tcl.call(".pane.top.tabs", "raise")), "page": str(tcl.call(".pane.top.right", "raise")), "teleop": int(app.vars.teleop_mode.get()),
-             "homed": sum(s.homed), "joints": app.joints_shown, "messages": [m.split(".")[0][:32] for m in op.messages()], "history": app.widgets.mdi_history.size(),
+             "homed": sum(s.homed), "homing": homing(op), "motion": s.motion_mode, "moves": s.current_vel > 0 or any(j["velocity"] for j in s.joint), "joints": app.joints_shown, "messages": [m.split(".")[0][:32] for m in op.messages()], "history": app.widgets.mdi_history.size(),
              "panel": app.vars.show_pyvcppanel.get(), "focus": str(tcl.call("focus")), "clipboard": clipboard(op.root)}
     return seen
+
+
+def homing(op):
+    return any(j["homing"] for j in op.stat.joint)
 
 
 def clipboard(root):
@@ -207,7 +212,7 @@ def again(op, state, base):
     app.set_override("feedrate", base["feedrate"])
     now = look(op)
     if any(now[n] != base[n] for n in ("power", "mode", "runs", "paused", "mist", "flood", "spindle", "rpm", "brake", "tab", "teleop", "homed", "history", "focus")) or \
-            (not op.stat.inpos and state != "run") or any(op.stat.g5x_offset) or any(j["homing"] for j in op.stat.joint):
+            (not op.stat.inpos and state not in ("run", *BUSY)) or any(op.stat.g5x_offset) or (homing(op) and state != "homing"):
         enter(op, state)
     if look(op) != base:
         enter(op, state)
@@ -280,6 +285,19 @@ def enter(op, state):
             if state == "paused":
                 c.auto(linuxcnc.AUTO_PAUSE)
                 op.until(lambda: op.stat.paused, "paused")
+    if state in ("moving", "mdimoving"):     # an MDI line that takes long
+        do("mode", linuxcnc.MODE_MDI)
+        do("mdi", "G0 X0 Y0 Z0")
+        c.mdi("G1 X300 F600")
+        op.until(lambda: op.stat.interp_state != linuxcnc.INTERP_IDLE and op.stat.current_vel > 0, "moves")
+        if state == "mdimoving":
+            app.raise_tab("mdi")
+            op.root.focus_force()
+    if state == "homing":
+        do("teleop_enable", 0)
+        do("unhome", -1)
+        c.home(-1)
+        op.until(lambda: homing(op), "homes")
     op.wait(0.2)
     op.root.tk.call(".pane.top.right", "raise", "numbers")
     for kind in ("ajog", "maxvel"):

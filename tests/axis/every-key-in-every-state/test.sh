@@ -21,4 +21,6 @@ run mill "off manual mdi" "F2 F3 F4 F5 F7 F9 F11 b o r t p s Left minus i v Esca
 run xyza "manual" "$axes"
 run lathe "unhomed manual" "$axes"
 run gantry "unhomed joint manual mdi" "$axes r"
+ini_edit="$ini_edit;s|^HOME = 0|HOME = 100|;s|^HOME_SEARCH|HOME_FINAL_VEL = 5\n&|"      # homing takes its time
+run mill "moving mdimoving homing" "F1 F2 F3 F5 F9 Tab r t p s b o l Escape x 5 minus Left KP_4 Home End i"
 rm -rf machine home part.ngc screen.log screen.err
