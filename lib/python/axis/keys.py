@@ -14,6 +14,7 @@ JOG_KEYS = {                               # keysym -> (place in the jog order, 
 SIGNS = set("0123456789I") | {"grave", "comma", "period", "less", "greater", "semicolon", "apostrophe"}      # with Shift on some keyboards
 FUNCTION_KEY = re.compile("F[0-9]+")
 CHORD = ("Shift_L", "Shift_R", "Control_L", "Control_R", "Alt_L", "Alt_R", "Meta_L", "Meta_R", "Super_L", "Super_R")
+OWN_KEYS = ("Entry", "Spinbox", "Listbox", "TEntry", "TCombobox", "TSpinbox", "Treeview")
 PLAIN = {                                  # without modifiers: key -> command
     "F2": "onoff_clicked", "F4": "next_tab", "F7": "mist_toggle", "F8": "flood_toggle", "F9": "spindle_forward_toggle",
     "F10": "spindle_backward_toggle", "b": "brake_off", "o": "open_file", "r": "task_run", "t": "task_step", "p": "task_pause",
@@ -88,14 +89,22 @@ class Keys:
             self.app.root.tk.call("spindle_constant")
         return "break"
 
-    @staticmethod
-    def in_entry(event):
-        return isinstance(event.widget, (tk.Entry, tk.Listbox)) or "ombobox" in str(getattr(event.widget, "widgetName", ""))
+    def in_entry(self, event):
+        """The keyboard belongs to a widget that takes text or has keys of its own; it may be one that a user's Tcl code made."""
+        call, path = self.app.root.tk.call, str(event.widget)
+        try:
+            kind = str(call("winfo", "class", path))
+            return kind in OWN_KEYS or (kind == "Text" and str(call(path, "cget", "-state")) == "normal")
+        except tk.TclError:              # is gone
+            return True
 
     # -- plain keys ------------------------------------------------------------------------
 
     def press(self, event):
-        if event.widget.winfo_toplevel() is not self.app.root:
+        try:
+            if str(self.app.root.tk.call("winfo", "toplevel", event.widget)) != ".":
+                return None
+        except tk.TclError:              # is gone
             return None
         key = event.keysym
         if self.in_entry(event) and not FUNCTION_KEY.fullmatch(key) and key != "Escape":

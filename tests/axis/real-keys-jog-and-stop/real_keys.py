@@ -21,6 +21,38 @@ def x(*words):
     subprocess.run(["xdotool", *words], check=True)
 
 
+def fields(op):
+    """Panels of users, made by Python or by Tcl: what is typed in a field is not for the machine; Escape and a button's keys are."""
+    app, tcl, told = op.app, op.root.tk, []
+    panel = lib.tk.Frame(op.root, name="panel")
+    panel.grid(row=0, column=4, rowspan=6)
+    kinds = "entry spinbox text ttk::entry ttk::spinbox ttk::combobox listbox button".split()
+    fields = {f"Tcl {kind}": tcl.call(kind, f".panel.{kind.replace(':', '')}", *(("-width", 8, "-height", 2) if kind == "text" else ())) for kind in kinds}
+    for kind in "Entry Spinbox Text".split():
+        fields[f"tkinter {kind}"] = str(getattr(lib.tk, kind)(panel, width=8))
+    tcl.call("pack", *fields.values())
+    stop = app.TclCommands.task_stop
+    tcl.createcommand("task_stop", lambda: told.append("stop"))
+    for name, path in fields.items():
+        app.set_override("feedrate", 100)
+        op.wait(0.6)
+        told.clear()
+        tcl.call("focus", "-force", path)
+        op.root.update()
+        before = op.stat.actual_position
+        x("type", "5rx-")
+        x("key", "Left", "Escape")
+        op.wait(0.5)
+        print(f"typed in {name}: override", app.vars.feedrate.get(), "moves", op.stat.actual_position != before, "Escape", told)
+        app.command.abort()
+        op.wait(0.3)
+    tcl.createcommand("task_stop", app.guarded(stop))
+    panel.destroy()
+    op.root.focus_force()
+    op.key("F3")
+    op.wait(0.2)
+
+
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, root = op.app, op.root
@@ -71,6 +103,7 @@ def script(op):
     op.wait(0.2)
     print("after it: rests", rests())
 
+    fields(op)
     rng, held, faults = random.Random(SEED), [], 0
     for step in range(STEPS):
         if rng.random() < 0.3 and len(held) < 3:
