@@ -483,6 +483,7 @@ proc ::axis::build_left {top} {
     build_speed $top.maxvel [_ "Max Velocity:"] maxvel_speed maxvel_slider_val ::axis::maxvel_slider
     label $top.gcodel -text [_ "Active G-Codes:"] -anchor w
     text $top.gcodes -height 2 -width 20 -wrap word -state disabled -relief flat -takefocus 0
+    bind $top.gcodes <Configure> {::axis::room_for_codes %W}
 }
 
 proc ::axis::build_right {top} {
@@ -536,6 +537,21 @@ proc ::axis::build_status {} {
     pack .info.tool -side left -padx 6 -fill x -expand 1
 }
 
+# The modal codes; the text keeps the lines that it once needed.
+proc ::axis::show_codes {codes} {
+    set w .pane.top.gcodes
+    $w configure -state normal
+    $w replace 1.0 end $codes
+    $w configure -state disabled
+    room_for_codes $w
+}
+
+proc ::axis::room_for_codes {w} {
+    if {![winfo ismapped $w]} return
+    set lines [$w count -displaylines 1.0 end]
+    if {$lines > [$w cget -height]} { $w configure -height $lines }
+}
+
 # What depends on how low the screen is.
 proc ::axis::arrange {} {
     set f .pane.top.tabs.fmanual
@@ -545,6 +561,9 @@ proc ::axis::arrange {} {
     $f.space1 configure -height $::axis::gap
     $f.space2 configure -height $::axis::gap
     .pane.bottom.t.text configure -height $::axis::code_lines
+    set space [list [font measure TkDefaultFont " "] 0]
+    foreach w {feedoverride rapidoverride spinoverride} { pack configure .pane.top.$w.m -padx $space }
+    foreach w {jogspeed ajogspeed maxvel} { pack configure .pane.top.$w.l1 -padx $space }
     update idletasks
     foreach book {tabs right} { .pane.top.$book compute_size }
     .pane paneconfigure .pane.bottom -height [winfo reqheight .pane.bottom]

@@ -104,11 +104,7 @@ class FollowPart:
         codes = active_codes(s)
         if codes != self.widget_signs.get("codes"):
             self.widget_signs["codes"] = codes
-            box = self.widgets.code_text
-            box.configure(state="normal")
-            box.delete("1.0", "end")
-            box.insert("end", codes)
-            box.configure(state="disabled")
+            self.root.tk.call("::axis::show_codes", codes)
         self.show_readout()
 
     def follow_overrides(self):

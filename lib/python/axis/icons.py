@@ -8,16 +8,19 @@ from kerf import imagefont
 from PIL import Image, ImageDraw
 
 OVERSAMPLE = 4
-INK, BAD, GOOD, BLUE, QUIET, GOLD = "#2b2f36", "#c62828", "#1f8a3b", "#1f5fa8", "#8a919c", "#c98a00"
-DARK_INK, DARK_BLUE = "#e4e6ea", "#7fb2f0"
+# Inks for a light and a dark ground; each can be told from a button, pressed or not.
+LIGHT = {"ink": "#2b2f36", "bad": "#c62828", "good": "#1a7a33", "blue": "#1f5fa8", "quiet": "#6c7480", "gold": "#a06c00", "ring_colour": "#c62828"}
+DARK = {"ink": "#e4e6ea", "bad": "#ff6b5e", "good": "#5fd17f", "blue": "#7fb2f0", "quiet": "#9aa1ab", "gold": "#e0a020", "ring_colour": "#ffffff"}
+EMERGENCY = "#c62828"
 
 
 class Pen:
-    """Draws in a square of 24 by 24 units."""
+    """Draws in a square of 24 by 24 units. Its attributes are colours by purpose, too: ink, bad, good..."""
 
-    def __init__(self, size, ink):
+    def __init__(self, size, colours):
         self.scale = size * OVERSAMPLE / 24
-        self.size, self.ink = size, ink
+        self.size = size
+        vars(self).update(colours)
         self.image = Image.new("RGBA", (size * OVERSAMPLE,) * 2, (0, 0, 0, 0))
         self.draw = ImageDraw.Draw(self.image)
 
@@ -53,53 +56,54 @@ class Pen:
 
 
 def estop(p):
-    p.disc(12, 12, 11, BAD)
+    p.disc(12, 12, 11, EMERGENCY)
+    p.ring(12, 12, 11, p.ring_colour, 1)
     p.line(7, 7, 17, 17, colour="#ffffff", width=3)
     p.line(17, 7, 7, 17, colour="#ffffff", width=3)
 
 
 def power(p):
-    p.arc(12, 13, 8, -60, 240, GOOD, 2.6)
-    p.line(12, 2, 12, 12, colour=GOOD, width=2.6)
+    p.arc(12, 13, 8, -60, 240, p.good, 2.6)
+    p.line(12, 2, 12, 12, colour=p.good, width=2.6)
 
 
 def open_(p):
-    p.fill(2, 6, 9, 6, 11, 9, 20, 9, 20, 12, 2, 12, colour=GOLD)
+    p.fill(2, 6, 9, 6, 11, 9, 20, 9, 20, 12, 2, 12, colour=p.gold)
     p.fill(5, 11, 23, 11, 19, 20, 2, 20, colour="#e8ae30")
 
 
 def reload(p):
-    p.arc(12, 12, 8, 30, 320, BLUE, 2.6)
-    p.fill(15, 3, 22, 5, 17, 11, colour=BLUE)
+    p.arc(12, 12, 8, 30, 320, p.blue, 2.6)
+    p.fill(15, 3, 22, 5, 17, 11, colour=p.blue)
 
 
 def run(p):
-    p.fill(6, 3, 20, 12, 6, 21, colour=GOOD)
+    p.fill(6, 3, 20, 12, 6, 21, colour=p.good)
 
 
 def step(p):
-    p.fill(4, 3, 15, 12, 4, 21, colour=GOOD)
-    p.rect(17, 4, 20, 20, GOOD)
+    p.fill(4, 3, 15, 12, 4, 21, colour=p.good)
+    p.rect(17, 4, 20, 20, p.good)
 
 
 def pause(p, colour=None):
     for x in (5, 14):
-        p.rect(x, 4, x + 4, 20, colour or BLUE)
+        p.rect(x, 4, x + 4, 20, colour or p.blue)
 
 
 def pause_inhibited(p):
-    pause(p, QUIET)
-    p.line(3, 21, 21, 3, colour=BAD, width=2.4)
+    pause(p, p.quiet)
+    p.line(3, 21, 21, 3, colour=p.bad, width=2.4)
 
 
 def stop(p):
-    p.rect(4, 4, 20, 20, BAD)
+    p.rect(4, 4, 20, 20, p.bad)
 
 
 def blockdelete(p):
     p.line(16, 3, 8, 21, width=3)
-    p.line(2, 12, 6, 12, colour=QUIET)
-    p.line(18, 12, 22, 12, colour=QUIET)
+    p.line(2, 12, 6, 12, colour=p.quiet)
+    p.line(18, 12, 22, 12, colour=p.quiet)
 
 
 def optpause(p):
@@ -116,19 +120,19 @@ def magnifier(p, plus):
 
 def letter(text, colour, turned=False):
     def draw(p):
-        p.text(text, colour)
+        p.text(text, getattr(p, colour))
         if turned:
-            p.arc(12, 12, 10.5, 200, 290, QUIET, 1.6)
-            p.fill(14, 0, 18, 3, 13, 5, colour=QUIET)
+            p.arc(12, 12, 10.5, 200, 290, p.quiet, 1.6)
+            p.fill(14, 0, 18, 3, 13, 5, colour=p.quiet)
     return draw
 
 
 def perspective(p):
     a, b = (4, 9, 13, 5, 21, 8, 12, 13), ((4, 9), (12, 13), (21, 8))
-    p.line(*a, 4, 9, colour=BLUE, width=1.6)
+    p.line(*a, 4, 9, colour=p.blue, width=1.6)
     for x, y in b:
-        p.line(x, y, x, y + 9, colour=BLUE, width=1.6)
-    p.line(4, 18, 12, 22, 21, 17, colour=BLUE, width=1.6)
+        p.line(x, y, x, y + 9, colour=p.blue, width=1.6)
+    p.line(4, 18, 12, 22, 21, 17, colour=p.blue, width=1.6)
 
 
 def rotate(p):
@@ -138,14 +142,14 @@ def rotate(p):
 
 
 def clear(p):
-    p.line(3, 18, 9, 8, 14, 15, 20, 5, colour=GOLD, width=2)
-    p.line(4, 4, 20, 20, colour=BAD, width=2.4)
+    p.line(3, 18, 9, 8, 14, 15, 20, 5, colour=p.gold, width=2)
+    p.line(4, 4, 20, 20, colour=p.bad, width=2.4)
 
 
 def turning(start, end, head):
     def draw(p):
-        p.arc(12, 12, 8, start, end, GOOD, 2.6)
-        p.fill(*head, colour=GOOD)
+        p.arc(12, 12, 8, start, end, p.good, 2.6)
+        p.fill(*head, colour=p.good)
     return draw
 
 
@@ -153,7 +157,7 @@ def radio(on):
     def draw(p):
         p.ring(12, 12, 10)
         if on:
-            p.disc(12, 12, 5.5, BLUE if p.ink == INK else DARK_BLUE)
+            p.disc(12, 12, 5.5, p.blue)
     return draw
 
 
@@ -162,7 +166,7 @@ def check(on):
         for x0, y0, x1, y1 in ((3, 3, 21, 3), (21, 3, 21, 21), (21, 21, 3, 21), (3, 21, 3, 3)):
             p.line(x0, y0, x1, y1)
         if on:
-            p.line(7, 12, 11, 16.5, 18, 7, colour=BLUE if p.ink == INK else DARK_BLUE, width=3.5)
+            p.line(7, 12, 11, 16.5, 18, 7, colour=p.blue, width=3.5)
     return draw
 
 
@@ -172,8 +176,8 @@ DRAWINGS = MARKS | {
     "estop": estop, "power": power, "open": open_, "reload": reload, "run": run, "step": step, "pause": pause,
     "pause_inhibited": pause_inhibited, "stop": stop, "blockdelete": blockdelete, "optpause": optpause,
     "zoomin": lambda p: magnifier(p, True), "zoomout": lambda p: magnifier(p, False),
-    "view_z": letter("Z", "#3355dd"), "view_z2": letter("Z", "#3355dd", True), "view_x": letter("X", "#22993a"),
-    "view_y": letter("Y", "#c43c3c"), "view_y2": letter("Y", "#c43c3c", True), "view_p": perspective, "rotate": rotate,
+    "view_z": letter("Z", "blue"), "view_z2": letter("Z", "blue", True), "view_x": letter("X", "good"),
+    "view_y": letter("Y", "bad"), "view_y2": letter("Y", "bad", True), "view_p": perspective, "rotate": rotate,
     "clear": clear, "spindle_cw": turning(180, 450, (12, 24, 12, 16, 5, 20)),
     "spindle_ccw": turning(90, 360, (12, 24, 12, 16, 19, 20)), "spindle_stop": stop,
 }
@@ -183,11 +187,11 @@ class Icons:
     """Images by name; each is made once."""
 
     def __init__(self, root, size, dark=False):
-        self.root, self.size, self.ink = root, size, DARK_INK if dark else INK
+        self.root, self.size, self.colours = root, size, DARK if dark else LIGHT
         self.images = {}
 
     def png(self, name):
-        pen = Pen(round(self.size * MARK_SIZE) if name in MARKS else self.size, self.ink)
+        pen = Pen(round(self.size * MARK_SIZE) if name in MARKS else self.size, self.colours)
         DRAWINGS[name](pen)
         return pen.png()
 
@@ -198,6 +202,6 @@ class Icons:
 
     def restyle(self, size, dark):
         """All images at another size or for another ground; widgets show them at once."""
-        self.size, self.ink = size, DARK_INK if dark else INK
+        self.size, self.colours = size, DARK if dark else LIGHT
         for name, image in self.images.items():
             image.configure(data=self.png(name))

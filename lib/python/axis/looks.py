@@ -12,9 +12,10 @@ from .notify import WRAP_PX
 
 # What AXIS has beside the colours of all Tk programs.
 LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#70767f", "chosen": "#b9d3ee", "trough": "#c9c5bd", "mark": "#fffffe"}
-DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#3f5f86", "trough": "#44474c", "mark": "#1e1f23"}
+DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#34496a", "trough": "#44474c", "mark": "#1e1f23"}
 TOUCH = 1.7                     # buttons and sliders for gloves, where the screen has room for them
 USUAL_WINDOW, SASH = (1280, 860), 10
+CODE_LINES = 6                   # of the program in sight on a low screen, if there is room
 HELP_LETTERS = 36                # of a line of the quick reference
 TOUCH_STEP, LEAST_TOUCH = 0.05, 1.1
 SCALES = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0)      # 0: from the screen
@@ -102,6 +103,7 @@ class LooksPart:
                 break
             self.restyle()
         asked, room = self.asked(), tkfit.room_of(root)
+        self.more_code(room[1] - asked[1])
         root.minsize(*map(min, asked, room))
         if root.winfo_ismapped():
             tkfit.enlarge(root, asked)
@@ -110,6 +112,13 @@ class LooksPart:
         root.tk.call("::axis::break_menus")
         for label in self.widgets.help_window.winfo_children():
             label.configure(wraplength=dialogs.letters(root, HELP_LETTERS))
+
+    def more_code(self, spare):
+        """Lines of the program that a low screen has room for, out of so many pixels."""
+        line = int(self.root.tk.call("font", "metrics", "TkFixedFont", "-linespace"))
+        lines = int(self.root.tk.getvar("::axis::code_lines"))
+        self.root.tk.setvar("::axis::code_lines", max(lines, min(CODE_LINES, lines + spare // line)))
+        self.root.tk.call("::axis::arrange")
 
     def restyle(self):
         """After a change of theme, scale or touch: every widget follows."""

@@ -21,6 +21,7 @@ LEAST_VERTICES, MOST_VERTICES = 8000, 400000
 FRAME_S = 1 / 40
 SLICE_VERTICES = 60000      # of one step towards the exact one
 EXACT_PX = 0.7
+USUAL_LETTERS_PX = 13        # with lines of one pixel
 PLOT_TAIL = 16               # points at the plot's end that may still change
 PLOT_RECORD = np.dtype([("p", "f4", 3), ("c", "u1", 4), ("q", "f4", 3), ("d", "u1", 4)])
 
@@ -112,6 +113,7 @@ class Renderer:
         self.plotted = 0
         self.exact = True
         self.budget = MOVING_VERTICES
+        self.thickness = 1           # pixels of a line, more where pixels are small
 
     # -- building blocks -------------------------------------------------------------------
 
@@ -169,6 +171,9 @@ class Renderer:
         gl.glDepthFunc(gl.GL_LEQUAL)
         gl.glEnable(gl.GL_BLEND)
         gl.glBlendFunc(gl.GL_SRC_ALPHA, gl.GL_ONE_MINUS_SRC_ALPHA)
+
+    def line(self, width):
+        self.gl.glLineWidth(width * self.thickness)
 
     def use(self, program, matrix=None):
         self.gl.glUseProgram(program)
@@ -269,9 +274,9 @@ class Renderer:
             gl.glBufferSubData(gl.GL_ARRAY_BUFFER, points.nbytes, kinds.nbytes, kinds)
             self.attributes((3, gl.GL_FLOAT, False, 12, 0), (1, gl.GL_UNSIGNED_BYTE, None, 1, points.nbytes))
             self.palette([(0, 0, 0, 0), item.colour])
-            gl.glLineWidth(item.width)
+            self.line(item.width)
             gl.glDrawArrays(gl.GL_TRIANGLES if item.triangles else gl.GL_LINE_STRIP, 0, len(points))
-        gl.glLineWidth(1.0)
+        self.line(1)
 
     def plot(self, plot, first, last, matrix):
         """Points first to last of the plotted path."""
@@ -284,15 +289,15 @@ class Renderer:
         size = PLOT_RECORD.itemsize
         part = np.frombuffer(data, np.uint8, (last - first) * size, first * size)
         gl.glBufferData(gl.GL_ARRAY_BUFFER, part.nbytes, part, gl.GL_STREAM_DRAW)
-        gl.glLineWidth(2.0)
+        self.line(2)
         for at in (0, 16) if second else (0,):
             self.attributes((3, gl.GL_FLOAT, False, size, at), (4, gl.GL_UNSIGNED_BYTE, True, size, at + 12))
             gl.glDrawArrays(gl.GL_LINE_STRIP, 0, last - first)
         if second:                   # the wire: both ends of each record
             self.attributes((3, gl.GL_FLOAT, False, size // 2, 0), (4, gl.GL_UNSIGNED_BYTE, True, size // 2, 12))
-            gl.glLineWidth(1.0)
+            self.line(1)
             gl.glDrawArrays(gl.GL_LINES, 0, 2 * (last - first))
-        gl.glLineWidth(1.0)
+        self.line(1)
 
     def glyph_sheet(self, pixels):
         gl = self.gl
@@ -381,9 +386,9 @@ class Renderer:
             self.palette([scene.selected] * 3)
             self.bind_drawing(scene.drawings[number])
             self.gl.glDepthFunc(self.gl.GL_ALWAYS)
-            self.gl.glLineWidth(3.0)
+            self.line(3)
             self.gl.glDrawArrays(self.gl.GL_LINE_STRIP, first, last - first)
-            self.gl.glLineWidth(1.0)
+            self.line(1)
             self.gl.glDepthFunc(self.gl.GL_LEQUAL)
         self.items(scene.after, matrix)
         texts, boxes = self.label_texts(scene.labels, label_size)
@@ -391,7 +396,9 @@ class Renderer:
         yield exact
 
     def draw_still(self, scene, matrix, label_size=13, exact=False):
-        """Draws the still layer now, quickly; step() makes it exact. exact: at once."""
+        """Draws the still layer now, quickly; step() makes it exact. exact: at once. Lines grow with the letters."""
+        self.thickness = max(1, round(label_size / USUAL_LETTERS_PX))
+        self.line(1)
         self.forget(scene.drawings)
         self.steps = None
         self.plotted = 0

@@ -2,7 +2,7 @@
 # Colours that mean different things in the preview, as people see them who do not tell red from green (Machado, Oliveira and Fernandes 2009, severity 1).
 import numpy as np
 from axis.compose import ALPHA, COLOURS, PLOT, plot_colours
-from axis import looks
+from axis import icons, looks
 from kerf import tkstyle
 
 EYES = {
@@ -68,3 +68,6 @@ for name in ("LIGHT", "DARK"):
     print(name.lower(), "text too faint:", [f"{a} on {b} {contrast(theme[a], theme[b], 'all colours'):.1f}" for a, b in texts
                                             if contrast(theme[a], theme[b], "all colours") < 4.5],
           "white on the running line:", contrast("#ffffff", theme["running"], "all colours") >= 4.5)
+    inks = getattr(icons, name)
+    print("   icons too faint:", [f"{ink} on {ground}" for ink in ("ink", "bad", "good", "blue", "quiet") for ground in ("face", "chosen")
+                                  if contrast(inks[ink], theme[ground], "all colours") < LEAST_CONTRAST])

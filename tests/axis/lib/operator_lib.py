@@ -80,7 +80,7 @@ class Operator:
         return str(self.root.tk.call(path, "cget", "-state")) != "disabled"
 
     def messages(self):
-        return [box.winfo_children()[1].cget("text") for _, box in self.app.notifications.shown]
+        return [box.text for _, box in self.app.notifications.shown]
 
     @property
     def stat(self):

@@ -73,6 +73,28 @@ DIALOGS = {
 LIMITS = [f"Program exceeds machine maximum on axis {c}" for c in "XYZABCUVW"] * 3
 
 
+def many_messages(op, looker, name, touch):
+    """More than there is room for, one without an end: the newest is seen, the tool bar and the readout are, and all can be closed."""
+    shown, root = op.app.notifications, op.root
+    for n in range(50):
+        shown.add("error", f"{n}: " + op.app.translate("Program exceeds machine maximum on axis %s") % "X" * (1 + 10 * (n % 3)) + " " + "x" * 40)
+    shown.add("info", "a line without an end " * 200)
+    looker.look(name + "-many-messages", touch)
+    frame = shown.frame
+    if frame.winfo_rooty() < root.winfo_rooty() + root.winfo_height() * 0.4 or frame.winfo_width() > root.winfo_width() * 0.45:
+        print("   ", name, "messages over the readout:", frame.winfo_geometry(), root.winfo_geometry())
+    if not shown.shown[-1][1].winfo_viewable():
+        print("   ", name, "the newest message is not in sight")
+    closed = 0
+    while shown.shown:
+        seen = [box for _kind, box in shown.shown if box.winfo_ismapped()]
+        seen[-1].cross.invoke()
+        root.update()
+        closed += 1
+    if closed != 11 or frame.winfo_ismapped():
+        print("   ", name, "closed one by one:", closed)
+
+
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     dialogs.ask = ASK
@@ -100,7 +122,7 @@ def script(op):
         for kind in ("error", "info"):
             app.notifications.add(kind, app.translate("Before the program goes on at line %d, this is done:") % 17 + " /home/somebody/linuxcnc/nc_files/a-part-with-a-long-name.ngc")
         looker.look(name + "-messages")
-        app.notifications.clear()
+        many_messages(op, looker, name, TOUCH_PX if roomy else 0)
         print(words, "letters", app.letters_px(), "icon", app.icons.get("run").width(), "background", app.widgets.homebutton.cget("background") == app.colours["face"])
 
 
