@@ -7,6 +7,8 @@
  */
 #include "callbacks.hh"
 
+#include <unistd.h>
+
 #include <ctime>
 #include <memory>
 
@@ -129,13 +131,22 @@ class CallbackCanon final : public PreviewCanon
     void announce(int line)
     {
         if (line < 0) line = interp->sequence_number();
-        if (line == delivered) return;
+        if (line == delivered || preparing) return;
         delivered = line;
         code.g[0] = code.m[0] = line;
         code.settings[0] = line;
         m_next_line(py::handle(py::cast(code)));
     }
     int last_delivered() const { return delivered; }
+    /// Init codes run at the line where the file begins: 0, or that of its %.
+    void prepare(bool on)
+    {
+        if (on) {
+            take_codes();
+            announce();
+        }
+        preparing = on;
+    }
     void flush_rows()
     {
         if (rows.empty()) return;
@@ -280,7 +291,7 @@ class CallbackCanon final : public PreviewCanon
     std::string parameter_name;
     LineCode code{};
     int delivered = -1;
-    bool batching = false, in_batch = false, feed_sent = false;
+    bool batching = false, in_batch = false, feed_sent = false, preparing = false;
     double feed = 60;
     std::vector<double> rows;
 };
@@ -323,18 +334,21 @@ py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
     std::unique_ptr<Interp> interp = make_interpreter(library, canon, &why);
     if (!interp) throw py::value_error(why);
     canon.interp = interp.get();
-    int status = INTERP_OK, extra = 0;
+    int status = INTERP_OK, opened = INTERP_OK, extra = 0;
     try {
         status = interp->init(InterpOptions::from_environment());
-        if (status <= INTERP_MIN_ERROR && interp->open(file.c_str()) != INTERP_OK)
-            saved_error = interp->error_text(INTERP_ERROR);
+        if (status <= INTERP_MIN_ERROR) opened = interp->open(file.c_str());
+        if (opened != INTERP_OK) saved_error = interp->error_text(INTERP_ERROR);
+        canon.prepare(true);
         for (size_t i = 0; i < init_codes.size() && status <= INTERP_MIN_ERROR; ++i) {
             if (init_codes[i].empty()) continue;
             canon.take_codes();
             status = interp->execute(init_codes[i].c_str());
         }
+        canon.prepare(false);
         time_t asked = time(nullptr);
         if (status <= INTERP_MIN_ERROR) status = INTERP_OK;
+        if (opened != INTERP_OK && access(file.c_str(), R_OK) == 0) status = opened; // nothing in it
         int count = 0;
         while (status == INTERP_OK || status == INTERP_EXECUTE_FINISH) {
             extra = 1;
@@ -363,7 +377,7 @@ py::tuple parse_with_callbacks(const std::string &file, py::object canon_object,
     if (status != INTERP_FILE_NOT_OPEN) canon.announce();
     if (status == INTERP_ENDFILE) line = canon.last_delivered() + 1; // behind the closing %
     if (status > INTERP_MIN_ERROR) {
-        if (status == INTERP_ERROR) saved_error = interp->error_text(status);
+        if (status == INTERP_ERROR && opened == INTERP_OK) saved_error = interp->error_text(status);
         const Fault &fault = interp->fault();
         line = status == INTERP_ERROR && fault.file == file ? fault.line : line + extra;
     }

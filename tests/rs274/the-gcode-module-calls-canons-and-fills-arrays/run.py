@@ -73,9 +73,10 @@ with tempfile.TemporaryDirectory() as d:
     check(parse("%\nG0 X1\n%\n")[0] == (3, 4), parse("%\nG0 X1\n%\n")[0])
     check(gcode.parse(d + "/nothere", Canon(d), ["G20"])[0] == 4 and gcode.strerror(4) == "File not open", "no file")
 
+    check(parse("")[0][0] == 5 and gcode.strerror(5).startswith("File ended with no percent"), "an empty file is open")
     result, log = parse("%\n#1=2\nG1 X1 F1\n(none)\nX[#<nope>]\n%\n", codes=["G21", "G90", "G17"])
     lines = [l[1] for l in log if l[0] == "next_line"]
-    check(lines == [0, 3, 4, 5] and result == (5, 5),
+    check(lines == [0, 1, 3, 4, 5] and result == (5, 5),
           f"lines of a % file after init codes, and the one with the error: {lines} {result}")
 
     arcs = Canon(d)         # answers every name, also length_units
