@@ -72,7 +72,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.last_increment = None
         self.seen_maxvel = None
         self.maxvel_quiet_until = 0.0
-        self.stale_since = None      # when offsets changed that the preview does not know
+        self.picture_conditions = None   # under which the preview was made
+        self.stale_since = None      # when something changed that the preview does not know
         self.select_moved = self.settings.flag("DISPLAY", "SELECT_MOVED_AXIS")
         self.own_values = {}
         self.undo_lines = None   # MDI lines that take the last touch off back

@@ -13,6 +13,7 @@ from kerf.language import N_
 from .dro import active_codes, tool_text
 from .estimate import Rates, clock_text
 from .jog import SLIDER_LEAST, position
+from .program import path_codes
 from .settings import LETTERS
 
 POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("Position: Machine Commanded"),
@@ -155,11 +156,12 @@ class FollowPart:
         self.last_state = state
 
     def follow_offsets(self):
-        """FP-134: the preview follows offsets and rotation that were set by hand, once the machine is idle."""
+        """FP-134: the preview follows offsets, rotation, tool length, units and plane that were set by hand, once the machine is idle."""
         if self.stale_since and clock.now() - self.stale_since > STALE_S and not self.loading and \
                 self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.task_mode != linuxcnc.MODE_AUTO:
             self.stale_since = None
-            self.refresh_preview()
+            if self.shown_file and self.picture_conditions != self.conditions():
+                self.refresh_preview()
 
     def follow_moved_axis(self):
         """[DISPLAY]SELECT_MOVED_AXIS: the axis that a wheel moves is the one that is touched off."""
@@ -219,12 +221,12 @@ class FollowPart:
         limited = [bool(x) for x in s.limit[:self.settings.joints]]
         self.preview.readout_lines = self.readout.lines(s, view) if not v.show_offsets.get() else [x for x in long_lines if x]
         self.preview.marks = list(zip(homed, limited))
-        key = (tuple(s.actual_position), tuple(long_lines), tuple(homed), tuple(limited), s.tool_in_spindle)
+        key = (tuple(s.actual_position), tuple(long_lines), tuple(homed), tuple(limited), s.tool_in_spindle, path_codes(s))
         if key == self.widget_signs.get("readout"):
             return
-        still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle)
+        still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle, path_codes(s))
         if still != self.widget_signs.get("offsets"):
-            if "offsets" in self.widget_signs and still[:3] != self.widget_signs["offsets"][:3]:
+            if "offsets" in self.widget_signs:
                 self.stale_since = clock.now()
             self.widget_signs["offsets"] = still
             self.user["current_tool"] = s.tool_table[0] if s.tool_in_spindle > 0 else None

@@ -130,6 +130,7 @@ class OpeningPart:
         timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
         boxed = self.loader.too_large(self.shown_file)
         path, drawings = self.read_program(() if boxed else self.preview.places(), timeout if timeout > 0 else LONGEST_PREVIEW_S, 50)
+        self.picture_conditions = self.limit_conditions
         if self.cancel_loading and quiet:
             return
         self.preview.set_program(path, drawings, boxed)
@@ -165,7 +166,7 @@ class OpeningPart:
         """(reading.Program, drawings) of the program as it would run now; the limits are checked against it. percent: of the bar, where it begins."""
         self.stat.poll()
         block_delete, total = bool(self.vars.block_delete.get()), max(1, self.code.total)
-        conditions = self.loader.conditions(self.shown_file, self.stat, block_delete)
+        conditions = self.conditions()
         reading = self.loader.read(self.kept, self.stat, block_delete, places, seconds)
         path, drawings = self.beside(reading.result, lambda line: self.progress(percent + (100 - percent) * min(1, line / total)))
         if path.fault:                           # is told of the file that the operator knows
@@ -174,13 +175,17 @@ class OpeningPart:
         self.limits_final = not path.aborted or path.late and seconds >= LONGEST_PREVIEW_S or bool(path.failed) and not places
         return path, drawings
 
+    def conditions(self):
+        """What the path of the program depends on now."""
+        return self.loader.conditions(self.shown_file, self.stat, bool(self.vars.block_delete.get()))
+
     def find_limits(self):
         """The limits do not depend on the preview (FP-136): where it was cancelled or capped, did not come about, or was made under
         other conditions, they get a reading of their own, without a drawing. False: the operator ended it."""
         self.stat.poll()
         if not self.shown_file or self.stat.interp_state != linuxcnc.INTERP_IDLE:
             return True
-        if self.limits_final and self.limit_conditions == self.loader.conditions(self.shown_file, self.stat, bool(self.vars.block_delete.get())):
+        if self.limits_final and self.limit_conditions == self.conditions():
             return True
         self.write_parameters()
         self.begin_progress()

@@ -16,6 +16,14 @@ from .settings import LETTERS, MM_PER_INCH
 PROGRESS = re.compile(r"FILTER_PROGRESS=(\d+)$")
 
 
+# active G codes that change the path of a program which does not set them itself: plane, units, distances, diameters, return of cycles
+PATH_CODES = {170, 171, 180, 181, 190, 191, 200, 210, 900, 901, 910, 911, 70, 80, 980, 990}
+
+
+def path_codes(stat):
+    return tuple(code for code in stat.gcodes[3:] if code in PATH_CODES)
+
+
 class FilterFailed(Exception):
     """A filter ended with an error. `program`, `status`, `text`: what it printed."""
 

@@ -169,6 +169,24 @@ def programs(op, here):
     op.idle()
     clock_wait(op)
     print("FP-134: back:", tuple(app.preview.drawings[0].extents[0]) == before)
+    follow_modes(op, path)
+
+
+def follow_modes(op, path):
+    """What a program finds that sets nothing itself."""
+    app, found = op.app, []
+    app.open_file_guts(os.path.join(os.path.dirname(path), "plain.ngc"))
+    for line in ("G21", "G20", "G18", "G21 G17", "G43.1 Z5", "G49"):
+        reading = app.preview.program
+        op.type(line)
+        op.idle()
+        op.wait(0.2)
+        clock_wait(op)
+        low, high = app.preview.drawings[0].extents
+        sizes = [round(25.4 * (b - a), 1) for a, b in zip(low, high)]
+        found.append((line, "read anew" if app.preview.program is not reading else "kept", sizes, round(25.4 * low[2], 1)))
+    print("FP-134: units, plane, tool length by hand:", *found, sep="\n  ")
+    app.open_file_guts(path)
 
 
 def waiting_lines(op):

@@ -12,6 +12,7 @@ G1 X0 Y0
 M2
 NGC
 printf 'o<helper> sub\n\n\n\n\n\n\n\n\n\nG1 X30 F300\nG1 Y0\no<helper> endsub\nM2\n' > helper.ngc
+printf 'G1 X3 Y1 F100\nG2 X5 Z0 R1\nM2\n' > plain.ngc
 printf 'o1 while [1]\nG1 X1 F100\nG1 X0\no1 endwhile\nM2\n' > endless.ngc
 printf 'G21\nG1 X1 F100\nG1 X Y2\nM2\n' > broken.ngc
 ini_edit="s|^DISPLAY = .*|&\nSELECT_MOVED_AXIS = 1|; s|^\[RS274NGC\]|&\nSUBROUTINE_PATH = $PWD|
