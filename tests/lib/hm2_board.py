@@ -1,0 +1,291 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A board with HostMot2 firmware on the network, simulated: `hm2_board.py IP [NAME [FIRMWARE]]` answers LBP16 packets
+at IP:27181 until its standard input ends, and says `ready` first.
+
+Time on the board goes on by CYCLE_NS with each packet that carries a read counter, so that what a test sees does not
+depend on the computer. Registers from 0xF000 on are no part of HostMot2: with them (raw.write_address ...) a test
+lets things happen to the board."""
+import select
+import socket
+import struct
+import sys
+
+PORT = 27181
+CYCLE_NS = 1_000_000
+CLOCK_LOW, CLOCK_HIGH = 100_000_000, 200_000_000
+IDROM = 0x400
+
+# For tests: the next N answers are lost, are cut, or the N next packets do not arrive at all; the next packet comes
+# so many ns late; the same for writes only.
+LOSE, CUT, DEAF, LATE, LOSE_WRITES = 0xF000, 0xF004, 0xF008, 0xF00C, 0xF010
+PACKETS = 0xF020            # number of packets so far
+ENCODER_RATE = 0xF100       # of each encoder, 1/65536 counts in a cycle, signed
+ENCODER_INDEX = 0xF180      # counts between index pulses; 0: none
+ENCODER_INPUTS = 0xF1C0     # of encoder 0: bits that its status shows besides (15: quadrature error)
+INPUTS = 0xF200             # levels at the pins of each port
+LEVELS = 0xF240             # what the pins of each port drive: value, and at LEVELS + 0x20 which of them do
+
+
+def module(gtag, version, clock, instances, base, registers, multiple, strides=0):
+    return struct.pack('<III', gtag | version << 8 | clock << 16 | instances << 24,
+                       base | registers << 16 | strides << 24, multiple)
+
+
+def pin(tag=0, unit=0, code=0, output=False):
+    return struct.pack('<I', 3 << 24 | unit << 16 | tag << 8 | code | (0x80 if output else 0))
+
+
+def plain_firmware():
+    """Modules, and pins of 3 ports of 17: 4 stepgens, 2 encoders, 2 pwmgens, the rest GPIO."""
+    modules = [
+        module(2, 0, 1, 1, 0x0C00, 3, 0),
+        module(3, 0, 1, 3, 0x1000, 5, 0x1F),
+        module(5, 2, 1, 4, 0x2000, 10, 0x1FF),
+        module(4, 3, 1, 2, 0x3000, 5, 0x3),
+        module(6, 0, 2, 2, 0x4000, 5, 0x3),
+        module(128, 0, 1, 1, 0x0200, 1, 0),
+    ]
+    pins = [pin()] * 11
+    pins += [p for unit in range(4) for p in (pin(5, unit, 1, True), pin(5, unit, 2, True))]
+    pins += [pin(4, unit, code) for unit in range(2) for code in (1, 2, 3)]
+    pins += [p for unit in range(2) for p in (pin(6, unit, 1, True), pin(6, unit, 2, True), pin(6, unit, 3, True))]
+    return modules, pins + [pin()] * (51 - len(pins))
+
+
+FIRMWARE = {'plain': plain_firmware}
+
+
+class Registers:
+    """64 KiB of registers, with actions at some addresses."""
+
+    def __init__(self):
+        self.memory = bytearray(0x10000)
+        self.on_write = {}
+
+    def get(self, addr):
+        return struct.unpack_from('<I', self.memory, addr)[0]
+
+    def get_signed(self, addr):
+        return struct.unpack_from('<i', self.memory, addr)[0]
+
+    def put(self, addr, value):
+        struct.pack_into('<I', self.memory, addr, value & 0xFFFFFFFF)
+
+    def take(self, addr):
+        """A counter of things to happen: one less, and was there one?"""
+        n = self.get(addr)
+        if n:
+            self.put(addr, n - 1)
+        return n > 0
+
+    def write(self, addr, data):
+        for at in range(0, len(data), 4):
+            value = struct.unpack_from('<I', data, at)[0]
+            action = self.on_write.get(addr + at)
+            if action:
+                action(value)
+            else:
+                self.put(addr + at, value)
+
+
+class Watchdog:
+    TIMER, STATUS, RESET = 0x0C00, 0x0D00, 0x0E00
+
+    def __init__(self, registers):
+        self.r = registers
+        self.r.put(self.TIMER, 0x80000000)
+        self.left = 0
+        self.r.on_write[self.TIMER] = self.set_timer
+        self.r.on_write[self.RESET] = self.pet
+
+    def set_timer(self, value):
+        self.r.put(self.TIMER, value)
+        self.left = value
+
+    def pet(self, value):
+        if value == 0x5A000000:
+            self.left = self.r.get(self.TIMER)
+
+    def step(self, clocks):
+        if self.r.get(self.TIMER) & 0x80000000:
+            return
+        self.left -= clocks
+        if self.left < 0:
+            self.r.put(self.STATUS, 1)
+
+    @property
+    def bitten(self):
+        return self.r.get(self.STATUS) & 1
+
+
+class Ports:
+    BASE = 0x1000
+
+    def __init__(self, registers, watchdog, count):
+        self.r, self.watchdog, self.count = registers, watchdog, count
+        self.out = [0] * count
+        for port in range(count):
+            self.r.on_write[self.BASE + 4 * port] = lambda value, port=port: self.set_out(port, value)
+
+    def set_out(self, port, value):
+        self.out[port] = value
+
+    def step(self):
+        for port in range(self.count):
+            at = self.BASE + 4 * port
+            ddr = 0 if self.watchdog.bitten else self.r.get(at + 0x100)
+            drives = ddr & ~(self.r.get(at + 0x300) & self.out[port])
+            value = self.out[port] ^ self.r.get(at + 0x400)
+            self.r.put(LEVELS + 4 * port, value & drives)
+            self.r.put(LEVELS + 0x20 + 4 * port, drives)
+            self.r.put(at, (value & drives) | (self.r.get(INPUTS + 4 * port) & ~drives))
+
+
+class StepGens:
+    BASE = 0x2000
+
+    def __init__(self, registers, count):
+        self.r, self.count = registers, count
+        self.exact = [0] * count          # 2^-32 steps
+
+    def step(self, clocks):
+        for i in range(self.count):
+            self.exact[i] += self.r.get_signed(self.BASE + 4 * i) * clocks
+            self.r.put(self.BASE + 0x100 + 4 * i, self.exact[i] >> 16)
+
+
+class Encoder:
+    """Counts at a rate; knows when it counted last."""
+    BASE = 0x3000
+
+    def __init__(self, registers, unit):
+        self.r, self.unit = registers, unit
+        self.position = 0                 # 1/65536 counts
+        self.stamp = self.control = self.latched = 0
+        self.r.on_write[self.BASE + 0x100 + 4 * unit] = self.set_control
+
+    def set_control(self, value):
+        self.control = value & 0x7FFF
+
+    def step(self, begin, ticks):
+        rate = self.r.get_signed(ENCODER_RATE + 4 * self.unit)
+        before, old = self.position >> 16, self.position
+        self.position += rate
+        now = self.position >> 16
+        if now != before:
+            edge = (now if rate > 0 else now + 1) << 16
+            self.stamp = int(begin + ticks * (edge - old) / rate)
+        self.watch_index(before, now)
+        self.r.put(self.BASE + 4 * self.unit, now & 0xFFFF | (self.stamp & 0xFFFF) << 16)
+        inputs = self.r.get(ENCODER_INPUTS) if self.unit == 0 else 0
+        self.r.put(self.BASE + 0x100 + 4 * self.unit, self.control | inputs | (self.latched & 0xFFFF) << 16)
+
+    def watch_index(self, before, now):
+        every = self.r.get(ENCODER_INDEX)
+        if not every or not self.control & 0x10 or before // every == now // every:
+            return
+        self.latched = max(before, now) // every * every
+        self.control &= ~0x10
+
+
+class Board:
+    NAME_LEN = 16
+
+    def __init__(self, name, firmware, port_width=17):
+        modules, pins = firmware
+        self.registers = r = Registers()
+        self.info = name.encode().ljust(self.NAME_LEN, b'\0') + bytes(48)
+        self.timers, self.status = bytearray(64), bytearray(64)
+        self.eeprom = b'\0\0' + bytes(reversed(bytes.fromhex('00601b123456'))) + bytes(120)
+        self.write_identity(name, modules, pins, port_width)
+        self.watchdog = Watchdog(r)
+        self.ports = Ports(r, self.watchdog, len(pins) // port_width)
+        self.stepgens = StepGens(r, 4)
+        self.encoders = [Encoder(r, unit) for unit in range(2)]
+        self.ticks = 0.0
+
+    def write_identity(self, name, modules, pins, port_width):
+        r, count = self.registers, len(pins)
+        r.put(0x100, 0x55AACAFE)
+        r.memory[0x104:0x10C] = b'HOSTMOT2'
+        r.put(0x10C, IDROM)
+        words = [3, 0x40, 0x200, 0, 0, 9, 144, count // port_width, count, port_width, CLOCK_LOW, CLOCK_HIGH, 4, 0x40,
+                 0x100, 4]
+        for i, word in enumerate(words):
+            r.put(IDROM + 4 * i, word)
+        r.memory[IDROM + 12:IDROM + 20] = ('MESA' + name)[:8].encode().ljust(8, b'\0')
+        text = b''.join(modules)
+        r.memory[IDROM + 0x40:IDROM + 0x40 + len(text)] = text
+        text = b''.join(pins)
+        r.memory[IDROM + 0x200:IDROM + 0x200 + len(text)] = text
+
+    def step(self, ns):
+        clocks = ns * CLOCK_LOW // 1_000_000_000
+        divisor = self.registers.get(0x3200) + 2
+        ticks = clocks / divisor
+        self.watchdog.step(clocks)
+        self.stepgens.step(clocks)
+        for encoder in self.encoders:
+            encoder.step(self.ticks, ticks)
+        self.ticks += ticks
+        self.registers.put(0x3300, int(self.ticks) & 0xFFFF)
+        self.ports.step()
+
+    def memory_of(self, space):
+        return {0: self.registers.memory, 2: self.eeprom, 4: self.timers, 6: self.status, 7: self.info}.get(space)
+
+    def write(self, space, addr, data, deaf):
+        if space == 0:
+            if not deaf:
+                self.registers.write(addr, data)
+        elif space == 4:
+            if addr == 0x10:
+                late = self.registers.get(LATE)
+                self.registers.put(LATE, 0)
+                self.step(CYCLE_NS + late)
+            if not deaf or addr == 0x10:
+                self.timers[addr:addr + len(data)] = data
+
+    def answer(self, packet):
+        """Does what a packet says; what the board sends back (None: nothing)."""
+        r, at, reply = self.registers, 0, b''
+        r.put(PACKETS, r.get(PACKETS) + 1)
+        writes = struct.unpack_from('<H', packet)[0] & 0x8000
+        deaf = r.take(DEAF) or (writes and r.take(LOSE_WRITES))
+        reads = []
+        while at < len(packet):
+            command, addr = struct.unpack_from('<HH', packet, at)
+            at += 4
+            space, size = command >> 10 & 7, (command & 0x7F) << (command >> 8 & 3)
+            if command & 0x8000:
+                self.write(space, addr, packet[at:at + size], deaf)
+                at += size
+            else:
+                reads.append((space, addr, size))
+        for space, addr, size in reads:
+            reply += bytes(self.memory_of(space)[addr:addr + size])
+        if not reads or deaf or r.take(LOSE):
+            return None
+        return reply[:-1] if r.take(CUT) else reply
+
+
+def main():
+    ip, name, firmware = (sys.argv[1:] + ['7I96S', 'plain'][len(sys.argv) - 2:])[:3]
+    board = Board(name, FIRMWARE[firmware]())
+    sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    sock.bind((ip, PORT))
+    print('ready', flush=True)
+    while True:
+        readable, _, _ = select.select([sock, sys.stdin], [], [])
+        if sock in readable:
+            packet, sender = sock.recvfrom(2000)
+            reply = board.answer(packet)
+            if reply is not None:
+                sock.sendto(reply, sender)
+        elif not sys.stdin.read(1):
+            return
+
+
+if __name__ == '__main__':
+    main()
