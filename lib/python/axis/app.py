@@ -65,6 +65,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
         self.loaded_file = self.shown_file = self.kept = None    # what the operator chose; what task opens; a copy of that
         self.is_filtered = self.loading = self.cancel_loading = False
+        self.loads = 0               # so many programs were shown
         self.disk_state, self.changed_on_disk = None, False
         self.limit_path = self.limit_conditions = None   # what the limits are checked against, under which conditions it was read
         self.limits_final = False    # another reading would find out no more
@@ -633,10 +634,14 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     # What other programs ask for (remote.py).
 
     def load(self, path):
-        self.TclCommands.open_file_name(path)
+        if self.loading:
+            return remote.BUSY
+        return self.TclCommands.open_file_name(path)
 
     def reload(self):
-        self.reload_file()
+        if self.loading:
+            return remote.BUSY
+        return self.reload_file()
 
     def send_mdi(self, text):
         self.TclCommands.send_mdi_command(text)

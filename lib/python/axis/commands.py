@@ -174,7 +174,8 @@ def make(app):
             s.poll()
             if s.task_state != linuxcnc.STATE_ON or app.refused_while_homing():
                 return
-            if s.interp_state == linuxcnc.INTERP_IDLE and (app.loading or not app.accept_limits() or not app.manual_ok()):
+            if s.interp_state == linuxcnc.INTERP_IDLE and (app.loading or app.follow_opened() or app.shown_is_old() or not app.accept_limits() or
+                                                               not app.manual_ok() or app.follow_opened()):
                 return
             if app.ensure_mode(linuxcnc.MODE_AUTO):
                 c.auto(linuxcnc.AUTO_STEP)

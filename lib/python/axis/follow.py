@@ -260,6 +260,7 @@ class FollowPart:
     def look_around(self):
         """New messages; whether the file or the offsets changed."""
         self.show_errors()
+        self.follow_opened()
         self.look_at_file()
         self.follow_offsets()
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Opening and starting programs: the dialogs, the text, the progress bar."""
 
+import filecmp
 import os
 import sys
 import threading
@@ -20,6 +21,7 @@ LONGEST_PREVIEW_S = 60.0     # a program without an end is not read for ever, al
 LONGEST_RESTORE_S = 120.0
 
 BESIDE_S = 0.02              # the screen looks around so often while something long is done
+LONGEST_NAME = 250           # task cuts longer paths off
 LONGEST_OPEN_S = 5.0         # of task
 OPEN_TRIES = 3               # while somebody writes the file
 
@@ -99,6 +101,38 @@ class OpeningPart:
             self.until_done()
             if self.state_on_disk() == self.disk_state:
                 break
+        self.show_kept()
+
+    def other_program(self):
+        """Path of the program that another client opened in task, or None. While something runs, task may name a subroutine's file."""
+        s = self.stat
+        if self.loading or s.interp_state != linuxcnc.INTERP_IDLE or not s.file or len(s.file) >= LONGEST_NAME:
+            return None
+        same = bool(self.shown_file) and os.path.realpath(s.file) == os.path.realpath(self.shown_file)
+        return None if same or not os.path.isfile(s.file) else s.file
+
+    def follow_opened(self):
+        """FP-130: what another client opened is what would run: it is shown, and nothing is commanded. True when it was so."""
+        path = self.other_program()
+        if not path:
+            return False
+        self.set_highlight_line(-1)
+        self.begin_progress()
+        try:
+            self.loaded_file = self.shown_file = self.user["loaded_file"] = path
+            self.is_filtered = False
+            self.disk_state, self.changed_on_disk = self.state_on_disk(), False
+            self.kept = self.beside(self.loader.kept_text, path)
+            self.show_kept()
+            self.notifications.add("info", self.translate("Another program opened %s. It is shown now.") % os.path.basename(path))
+        except OSError as e:
+            self.notifications.add("error", f"{path}: {e.strerror}")
+        finally:
+            self.end_progress()
+        return True
+
+    def show_kept(self):
+        self.loads += 1
         self.code.load(self.kept, self.beside(line_starts, self.kept))
         self.read_preview()
         self.show_title()
@@ -207,6 +241,18 @@ class OpeningPart:
         except (OSError, TypeError):
             return None
         return found.st_mtime_ns, found.st_size, found.st_ino
+
+    def shown_is_old(self):
+        """The file was changed after it was opened: whoever opens it again gets another program. The operator is told."""
+        self.look_at_file()
+        try:
+            old = self.changed_on_disk and self.shown_file == self.loaded_file and not filecmp.cmp(self.kept, self.loaded_file, shallow=False)
+        except OSError:                  # it is gone: task has it as it was
+            old = False
+        if old:
+            text = self.translate("%s was changed after it was opened: open it again to run what it says now")
+            self.notifications.add("error", text % os.path.basename(self.loaded_file))
+        return old
 
     def look_at_file(self):
         """Tells once when the file on disk is no longer the program that is loaded."""
@@ -319,21 +365,21 @@ class OpeningPart:
         while True:
             if not self.find_limits():
                 return False
-            warnings = self.limit_warnings()
+            warnings, loads = self.limit_warnings(), self.loads
             if not warnings:
                 return True
             answer = dialogs.ask(self.root, _("Program exceeds machine limits"), "\n".join(warnings), "warning", 1,
                                  _("Re-Check"), _("Run Anyway"), _("Cancel"), escape=2)
-            if answer == 1:
+            if answer == 1 and loads == self.loads:
                 return True
-            if answer != 0:
+            if answer != 0 or loads != self.loads:           # the answer was for another program
                 return False
             self.reload_file()
 
     def run_from(self, line):
         def possible():
-            return not self.loading and self.manual_ok() and not self.running() and self.loaded_file
-        if not possible() or self.refused_while_homing() or not self.accept_limits() or not possible():     # much may happen meanwhile
+            return not self.loading and self.manual_ok() and not self.running() and self.loaded_file and not self.follow_opened()
+        if not possible() or self.shown_is_old() or self.refused_while_homing() or not self.accept_limits() or not possible():     # much may happen meanwhile
             return
         if line > 0:
             self.start_at(line)
@@ -344,7 +390,7 @@ class OpeningPart:
 
     def start_at(self, line):
         """A start in the middle: task tells what it would restore, the operator decides."""
-        c, s, _ = self.command, self.stat, self.translate
+        c, s, _, loads = self.command, self.stat, self.translate, self.loads
         if not self.ensure_mode(linuxcnc.MODE_AUTO):
             return
         c.restore(line)
@@ -371,6 +417,9 @@ class OpeningPart:
         self.notifications.drop(lambda text: s.restore_text[:60] in text)       # the dialog told it
         restored = s.restore_line
         s.poll()
+        if loads != self.loads:          # the answer was for another program
+            c.abort()
+            return
         if s.task_state != linuxcnc.STATE_ON or self.running():
             return
         if answer == 0 and s.restore_line == restored:

@@ -8,7 +8,7 @@ BUSY = "axis cannot accept remote command while running"
 
 def serve(root, screen, running):
     """Names the program `axis` and answers `remote`. screen has load(path), reload(), send_mdi(text),
-    clear_live_plot() and quit(); running() is true while a program runs."""
+    clear_live_plot() and quit(), of which load and reload may return BUSY; running() is true while a program runs."""
     for entry in ("gdm", "root"):  # Tk takes commands of others only when xauth alone guards the display
         try:
             subprocess.run(["xhost", f"-SI:localuser:{entry}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=5)
@@ -23,7 +23,6 @@ def serve(root, screen, running):
             return f"unknown remote command '{verb}'"
         if verb != "clear_live_plot" and running():
             return BUSY
-        verbs[verb](*arguments)
-        return ""
+        return BUSY if verbs[verb](*arguments) == BUSY else ""
 
     root.createcommand("remote", remote)

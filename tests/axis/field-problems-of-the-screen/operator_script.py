@@ -20,6 +20,7 @@ def script(op):
     jogging(op)
     programs(op, here)
     loading(op, here)
+    others(op, here)
     touching_off(op)
     waiting_lines(op)
     reports(op)
@@ -187,6 +188,50 @@ def follow_modes(op, path):
         found.append((line, "read anew" if app.preview.program is not reading else "kept", sizes, round(25.4 * low[2], 1)))
     print("FP-134: units, plane, tool length by hand:", *found, sep="\n  ")
     app.open_file_guts(path)
+
+
+def others(op, here):
+    """Other clients open programs: what is shown is what would run."""
+    app, client = op.app, linuxcnc.command()
+    one, two = os.path.join(here, "part.ngc"), os.path.join(here, "two.ngc")
+
+    def opens(path):
+        client.program_open(path)
+        client.wait_complete()
+    with open(two, "w") as f:
+        f.write("G21 G90 F1000\nG1 X3\nG1 X900\nM2\n")
+    app.notifications.clear()
+    opens(two)
+    op.root.tk.call("task_run")                  # before the screen has looked around
+    op.wait(0.3)
+    print("FP-130: another client's program, R at once: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "shown", app.line_text(2), op.messages())
+    asks = dialogs.ask
+
+    def ask(root, title, *rest, **more):
+        print("FP-130:", title, end=" ")
+        opens(one)
+        op.app.look_around()
+        return 1
+    dialogs.ask = ask
+    op.root.tk.call("task_run")
+    op.wait(0.3)
+    dialogs.ask = asks
+    print("answered after another was opened: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "shown", os.path.basename(app.shown_file))
+    with open(one) as f:
+        text = f.read()
+    with open(one, "w") as f:
+        f.write(text + "(longer)\n")
+    opens(one)
+    op.root.tk.call("task_run")
+    op.wait(0.3)
+    print("FP-130: changed and opened by another client: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "told:", "open it again" in op.messages()[-1])
+    app.loading = True
+    print("axis-remote while a program is opened:", op.root.tk.call("remote", "open_file_name", two), "|", op.root.tk.call("remote", "reload_file"))
+    app.loading = False
+    with open(one, "w") as f:
+        f.write(text)
+    app.open_file_guts(one)
+    op.key("F3")
 
 
 def waiting_lines(op):
