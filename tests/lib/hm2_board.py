@@ -53,7 +53,40 @@ def plain_firmware():
     return modules, pins + [pin()] * (51 - len(pins))
 
 
-FIRMWARE = {'plain': plain_firmware}
+def full_firmware():
+    """One or two of each kind of module whose registers are only memory, on 3 ports of 24."""
+    modules = [
+        module(2, 0, 1, 1, 0x0C00, 3, 0),
+        module(19, 0, 1, 1, 0x5000, 4, 0x3),
+        module(44, 0, 1, 2, 0x5800, 2, 0x1),
+        module(26, 0, 1, 1, 0x6000, 7, 0),
+        module(195, 0, 1, 1, 0x6800, 2, 0x3),
+        module(192, 0, 1, 1, 0x7000, 5, 0x1F),
+        module(30, 0, 1, 1, 0x7800, 5, 0x1F),
+        module(35, 0, 1, 1, 0x8000, 5, 0x1F),
+        module(43, 0, 1, 1, 0x8800, 11, 0x1FF),
+        module(45, 0, 1, 1, 0x9800, 1, 0x1),
+        module(199, 0, 1, 1, 0xA000, 6, 0x3F),
+        module(200, 0, 1, 1, 0xA800, 4, 0xF),
+        module(3, 0, 1, 3, 0x1000, 5, 0x1F),
+        module(5, 0xC2, 1, 1, 0x2000, 10, 0x1FF),
+        module(12, 4, 1, 2, 0x3000, 5, 0x3),
+        module(13, 0, 1, 1, 0x3800, 1, 0),
+        module(6, 1, 2, 1, 0x4000, 5, 0x3),
+        module(128, 0, 1, 1, 0x0200, 1, 0),
+        module(11, 0, 1, 1, 0xB000, 1, 0),
+    ]
+    outputs = [(5, 0, 1), (5, 0, 2), (5, 0, 3), (6, 0, 1), (6, 0, 2), (6, 0, 3), (13, 0x80, 1), (44, 0, 1), (44, 1, 1),
+               (26, 0, 2), (30, 0, 1), (30, 0, 2), (43, 0, 1), (43, 0, 2), (43, 0, 3), (43, 0, 4), (195, 0, 1),
+               (195, 0, 2), (195, 0, 32), (45, 0, 1), (45, 0, 9), (199, 0, 3), (199, 0, 4)]
+    outputs += [(19, 0, code) for code in range(1, 8)] + [(192, 0, code) for code in range(2, 9)]
+    inputs = [(12, 0, 1), (12, 0, 2), (12, 0, 3), (5, 0, 9), (5, 0, 10), (19, 0, 8), (192, 0, 9), (192, 0, 10),
+              (30, 0, 1), (43, 0, 5), (199, 0, 1), (199, 0, 2), (200, 0, 1), (35, 0, 1), (35, 0, 2), (35, 0, 9)]
+    pins = [pin(*words, True) for words in outputs] + [pin(*words) for words in inputs]
+    return modules, pins + [pin()] * (72 - len(pins))
+
+
+FIRMWARE = {'plain': (plain_firmware, 17), 'full': (full_firmware, 24)}
 
 
 class Registers:
@@ -272,7 +305,11 @@ class Board:
 
 def main():
     ip, name, firmware = (sys.argv[1:] + ['7I96S', 'plain'][len(sys.argv) - 2:])[:3]
-    board = Board(name, FIRMWARE[firmware]())
+    make, port_width = FIRMWARE[firmware]
+    board = Board(name, make(), port_width)
+    board.registers.put(0x6300, 42)     # ddsize of the DPLL
+    board.registers.put(0x7800, 21)     # highest input of the input multiplexer, and of the inputs
+    board.registers.put(0x8000, 9)
     sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     sock.bind((ip, PORT))
     print('ready', flush=True)

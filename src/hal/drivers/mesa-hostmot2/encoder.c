@@ -125,7 +125,7 @@ static int export_channel(struct hm2 *hm2, struct encoder *s, int i)
 static bool probe_timer(struct hm2 *hm2, const struct hm2_md *md)
 {
     rtapi_u32 value = 0, addr = hm2_register_addr(md, TIMER, 0);
-    if(!hm2_find_md(hm2, HM2_GTAG_DPLL) || !hm2_write_now(hm2, addr, 0)) return false;
+    if(!hm2_has_dpll(hm2) || !hm2_write_now(hm2, addr, 0)) return false;
     return hm2_read_now(hm2, addr, &value, sizeof value) && value == 0;
 }
 
@@ -336,7 +336,7 @@ static rtapi_u32 filter_register(struct encoder *s)
         s->frequency_known = hal_set_ui32(s->sample_frequency, reg == 0xFFF ? s->md.clock : s->md.clock / (reg + 2));
         if(s->skews) {
             double tick_ns = 1e9 / s->md.clock;
-            skew = (rtapi_u32)lrint(hal_get_ui32(s->skew) / tick_ns);
+            skew = (rtapi_u32)round(hal_get_ui32(s->skew) / tick_ns);
             if(skew > 15) skew = 15;
             s->skew_known = hal_set_ui32(s->skew, (rtapi_u32)(skew * tick_ns));
         }

@@ -128,7 +128,10 @@ struct hm2_function_ops {
     void (*print)(struct hm2 *hm2, void *state);
 };
 
-extern const struct hm2_function_ops hm2_ioport, hm2_watchdog, hm2_pwmgen, hm2_stepgen, hm2_encoder, hm2_led, hm2_raw;
+extern const struct hm2_function_ops hm2_ioport, hm2_watchdog, hm2_pwmgen, hm2_oneshot, hm2_periodm, hm2_rcpwmgen,
+    hm2_inmux, hm2_inm, hm2_xy2mod, hm2_tppwm, hm2_stepgen, hm2_encoder, hm2_resolver, hm2_dpll, hm2_led, hm2_ssr,
+        hm2_outm,
+    hm2_raw;
 
 #define HM2_FUNCTIONS 32
 
@@ -203,6 +206,14 @@ void *hm2_state(const struct hm2 *hm2, const struct hm2_function_ops *ops);
 /* Name of a function for people, and in HAL (NULL: none). */
 const char *hm2_gtag_name(int gtag);
 const char *hm2_gtag_hal_name(int gtag);
+/* Does the board have the clock that follows the thread, in use? */
+bool hm2_has_dpll(const struct hm2 *hm2);
+/* [any] value, limited; no number is 0. */
+static inline double hm2_clip(double value, double low, double high)
+{
+    if(isnan(value)) value = 0;
+    return value < low ? low : value > high ? high : value;
+}
 /* Register of a module's DPLL timer: timer -1 (none) to 4. */
 rtapi_u32 hm2_timer_register(rtapi_s32 timer);
 

@@ -128,7 +128,8 @@ static int decode_module(struct hm2 *hm2, const rtapi_u32 word[3], struct hm2_md
         return -EINVAL;
     }
     if(register_sel > 1 || instance_sel > 1) {
-        HM2_ERR(hm2, "module descriptor %d (%s) has stride selectors %u and %u, expected 0 or 1: the firmware is damaged\n",
+        HM2_ERR(hm2, "module descriptor %d (%s) has stride selectors %u and %u, expected 0 or 1: "
+                "the firmware is damaged\n",
                 hm2->mds, hm2_gtag_name(md->gtag), register_sel, instance_sel);
         return -EINVAL;
     }

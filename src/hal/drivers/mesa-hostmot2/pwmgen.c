@@ -120,7 +120,7 @@ static rtapi_u32 value_register(const struct pwmgen *s, const struct channel *c)
     double share = 0, value;
     if(hal_get_bool(c->enable)) {
         share = hal_get_real(c->value) / hal_get_real(c->scale);
-        share = share > 1 ? 1 : share < -1 ? -1 : isnan(share) ? 0 : share;
+        share = hm2_clip(share, -1, 1);
     }
     if(hal_get_bool(c->offset_mode)) {
         double half = 1 << (bits - 1);

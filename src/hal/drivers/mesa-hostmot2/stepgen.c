@@ -145,7 +145,7 @@ static int claim(struct hm2 *hm2, const struct hm2_md *md, void **state)
     s->count = n;
     s->swaps = md->version & VERSION_SWAP;
     s->latches = md->version & VERSION_LATCH;
-    s->has_timer = hm2_find_md(hm2, HM2_GTAG_DPLL);
+    s->has_timer = hm2_has_dpll(hm2);
     if(s->has_timer) COMP_TRY(hm2_export(hm2, timer, 1, s, "stepgen."));
     for(i = 0; i < n; i++) {
         COMP_TRY(export_channel(hm2, s, i));
@@ -225,15 +225,10 @@ static double speed_limit(struct hm2 *hm2, struct channel *c, int i)
         return wanted;
     }
     if(!c->maxvel_told)
-        HM2_ERR(hm2, "stepgen.%02d.maxvel is too big for current step timings & position-scale, clipping to max possible "
-                "(%g): shorten steplen and stepspace for more\n", i, physical);
+        HM2_ERR(hm2, "stepgen.%02d.maxvel is too big for current step timings & position-scale, clipping to max "
+                "possible (%g): shorten steplen and stepspace for more\n", i, physical);
     c->maxvel_told = true;
     return hal_set_real(c->maxvel, physical);
-}
-
-static double limited(double value, double low, double high)
-{
-    return value < low ? low : value > high ? high : value;
 }
 
 /* Speed for the next t_s seconds so that the position meets a command that moves. a: greatest
@@ -255,7 +250,7 @@ static double follow_position(struct channel *c, double a, double t_s)
     hal_set_real(c->dbg_err_at_match, err);
     if(match_s < t_s || match_accel == 0 || a <= 0) {
         double wanted = ff - 0.5 * err / t_s;
-        return a > 0 ? limited(wanted, speed - a * t_s, speed + a * t_s) : wanted;
+        return a > 0 ? hm2_clip(wanted, speed - a * t_s, speed + a * t_s) : wanted;
     }
     /* One cycle of acceleration the other way: would that bring the position nearer? */
     double change = -2 * match_accel * t_s * match_s;
@@ -275,10 +270,10 @@ static double wanted_speed(struct hm2 *hm2, struct channel *c, int i, double t_s
     if(hal_get_bool(c->control_type)) {
         wanted = hal_get_real(c->velocity_cmd);
         c->old_cmd = hal_get_real(c->position_cmd);
-        if(a > 0) wanted = limited(wanted, speed - a * t_s, speed + a * t_s);
+        if(a > 0) wanted = hm2_clip(wanted, speed - a * t_s, speed + a * t_s);
     } else
         wanted = follow_position(c, a, t_s);
-    return isnan(wanted) ? 0 : limited(wanted, -limit, limit);
+    return isnan(wanted) ? 0 : hm2_clip(wanted, -limit, limit);
 }
 
 static void prepare(struct hm2 *hm2, void *state, long period)
@@ -292,7 +287,7 @@ static void prepare(struct hm2 *hm2, void *state, long period)
         double speed = wanted_speed(hm2, c, i, t_s);
         double rate = speed * hal_get_real(c->scale) * (4294967296.0 / s->md.clock);
         hal_set_real(c->velocity_fb, speed);
-        s->rate[i] = (rtapi_u32)(rtapi_s32)limited(rate, -FULL_RATE, FULL_RATE);
+        s->rate[i] = (rtapi_u32)(rtapi_s32)hm2_clip(rate, -FULL_RATE, FULL_RATE);
         hal_set_si32(c->dbg_step_rate, (rtapi_s32)s->rate[i]);
     }
 }
