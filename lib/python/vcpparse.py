@@ -21,6 +21,7 @@ POLL_MS = 100
 EVALUATED = "{[(\"'"       # an attribute that begins with one of these is a Python expression
 
 filename = None             # of the next create_vcp()
+numbers = {}                # what its widgets begin with instead of initval, by full name of the pin
 
 
 class Element:
@@ -88,7 +89,7 @@ def attribute(text):
     return text
 
 
-def numbers(make, options):
+def as_numbers(make, options):
     """The options with numbers where the widget wants numbers: they may stand in quotes, like Tk's own."""
     maybe = getattr(make, "NUMBERS", ())
     for name, parameter in inspect.signature(make).parameters.items():
@@ -103,7 +104,7 @@ class Builder:
 
     def __init__(self, component):
         self.component = component
-        self.panel = pyvcp_widgets.Panel(component, self.include)
+        self.panel = pyvcp_widgets.Panel(component, self.include, numbers)
         self.files = []
 
     def place(self, element):
@@ -146,7 +147,7 @@ class Builder:
             return
         options = self.options(element)
         try:
-            self.made(element, make(master, self.panel, **numbers(make, dict(options))), options, container)
+            self.made(element, make(master, self.panel, **as_numbers(make, dict(options))), options, container)
         except SystemExit:
             raise
         except Exception as error:

@@ -15,6 +15,7 @@ import linuxcnc
 from kerf import clock, gl, language, tkstyle
 from kerf.failures import Recorder
 from kerf.language import N_
+from kerf.screen_record import Record
 from kerf.tktools import ngcgui_tabs
 from kerf.tree import Tree
 
@@ -28,6 +29,7 @@ from .panels import PanelsPart
 from .pins import PinsPart
 from .prefs import Preferences
 from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
+from .takeup import TakeUpPart
 from .touchoff import G21_ACTIVE, Checker, brackets, scale_text, unit_text
 from .usercode import UserPart
 from .variables import Variables
@@ -36,13 +38,14 @@ from .window import WindowPart
 
 OFTEN = ("redraw_soon", "redraw", "redraw_dro")      # not worth a note
 STATUS_TRIES = 9
+CRASHED = 70             # exit status of a screen that an exception ended
 MAXVEL_QUIET_S = 1.0     # after an own change the slider does not follow the status
 HOMING = N_("Homing is going on: wait for its end, or stop it (Escape).")
 NO_STATUS = ("A configuration error is preventing LinuxCNC from starting.\n"
              "More information may be available when running from a terminal.")
 
 
-class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
+class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, TakeUpPart):
     """One screen."""
 
     def __init__(self, root, ini_path):
@@ -50,6 +53,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.probe = gl.Probe()
         self.ini = linuxcnc.ini(ini_path)
         self.recorder = Recorder("axis", ini_path, Tree.find().version())
+        self.record = Record()
+        self.former = self.record.former     # what a screen that crashed left; None: the session is new
         root.report_callback_exception = self.callback_failed
         self.settings = read(self.ini)
         self.settings.ini_path = ini_path
@@ -78,11 +83,13 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.select_moved = self.settings.flag("DISPLAY", "SELECT_MOVED_AXIS")
         self.own_values = {}
         self.undo_lines = None   # MDI lines that take the last touch off back
-        self.children = []
+        self.children, self.told_children = [], set()
+        self.tab_names = []      # components of PyVCP panels in tabs
+        self.writers = {}        # which pins had one when widgets were hidden
         self.place = ""          # file and line of a subroutine that runs
         self.panel = None
         self.widget_signs = {}
-        self.loader = program.Loader(self.settings)
+        self.loader = program.Loader(self.settings, self.former_folder())
         self.waits = Waits(self.prefs, ini_path, self.hal_value)
         self.estimate = Estimate(ini_path, self.waits)
         self.timed = False       # a program ran at the last look
@@ -564,6 +571,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         return self.stat.spindle[0]["direction"] != 0
 
     def show(self):
+        self.complete = True
+        self.keep_record(True)
         self.root.deiconify()
         try:
             self.root.tk.call("send", "popimage", "destroy", ".")
@@ -571,8 +580,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
             pass
 
     def confirm_close(self):
-        if dialogs.ask(self.root, self.translate("Confirm Close"), self.translate("Do you really want to close LinuxCNC?"), "warning", 1,
-                       self.translate("Yes"), self.translate("No"), escape=1) == 0:
+        _, text = self.translate, [self.translate("Do you really want to close LinuxCNC?")]
+        if self.running():
+            text.append(_("A program runs: it will be stopped."))
+        if any(spindle["direction"] for spindle in self.stat.spindle[:self.stat.spindles]):
+            text.append(_("A spindle turns: it will be stopped."))
+        if dialogs.ask(self.root, _("Confirm Close"), "\n".join(text), "warning", 1, _("Yes"), _("No"), escape=1) == 0:
             self.root.destroy()
 
     # -- life ------------------------------------------------------------------------------
@@ -580,10 +593,11 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
     def start(self, first_file):
         """Everything after the widgets, in the documented order."""
         remote.serve(self.root, self, self.running)
-        for report in self.recorder.watch_crashes():
-            self.notifications.add("error", self.translate("The screen ended unexpectedly the last time. Report: %s") % report)
-        for name in OPTIONS:
-            self.send_option(name, getattr(self.vars, name).get())
+        living = self.former is not None     # a machine that others saw before: nothing of it is set anew
+        self.tell_crashes(self.recorder.watch_crashes())
+        if not living:
+            for name in OPTIONS:
+                self.send_option(name, getattr(self.vars, name).get())
         self.make_pins()
         self.make_panel()
         self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)
@@ -593,8 +607,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.show_title()
         initial = first_file or os.environ.get("AXIS_OPEN_FILE") or self.settings.find("DISPLAY", "OPEN_FILE")
         self.preview.set_view(self.lathe_view() if self.settings.lathe else "p")
-        for name in ("feedrate", "rapidrate", "spindlerate"):
-            self.set_override(name, 100)
+        if not living:
+            for name in ("feedrate", "rapidrate", "spindlerate"):
+                self.set_override(name, 100)
         ngcgui_tabs.offer(self)
         for words in self.ini.findall("DISPLAY", "TKPKG") or []:
             try:
@@ -611,9 +626,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.finish_pins()
         self.start_tabs()
         self.fit_screen()
+        self.exit_status = 0
+        if living:
+            self.take_up()
+            return
         self.command.teleop_enable(0)
         self.command.wait_complete()
-        self.exit_status = 0
         self.update()
         self.poll_errors()
         self.wait_for_children(self.postgui)
@@ -661,6 +679,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart):
         self.estimate.cancel(wait=True)
         self.loader.close()
         self.recorder.close()
+        self.record.remove()
         self.end_children()
         if getattr(self, "comp", None) is not None:
             self.comp.exit()
@@ -698,7 +717,11 @@ def main(argv):
         root.mainloop()
     except (KeyboardInterrupt, SystemExit):  # the launcher ends the session; a question was open when the screen was closed
         pass
-    finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # one is enough: nothing interrupts the end
-        app.close()
+    except BaseException:        # a crash like one of the process: the launcher starts the screen again
+        text = traceback.format_exc()
+        print(text, file=sys.stderr, flush=True)
+        app.recorder.fell(text)
+        os._exit(CRASHED)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # one is enough: nothing interrupts the end
+    app.close()
     return app.exit_status

@@ -263,6 +263,8 @@ class FollowPart:
         self.follow_opened()
         self.look_at_file()
         self.follow_offsets()
+        self.look_at_children()
+        self.keep_record()
 
     def show_errors(self):
         try:

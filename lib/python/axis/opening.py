@@ -136,6 +136,8 @@ class OpeningPart:
         self.code.load(self.kept, self.beside(line_starts, self.kept))
         self.read_preview()
         self.show_title()
+        self.loading = False
+        self.keep_record(True)
 
     def until_done(self):
         """Task did the last command, or LONGEST_OPEN_S have passed; the screen goes on."""

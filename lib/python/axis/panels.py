@@ -11,9 +11,11 @@ import sys
 import tkinter as tk
 
 import hal
+import hal.query
 from kerf import clock
 
 CHILD_POLL_MS = 100
+LOADUSR = "halcmd loadusr"
 
 
 class PanelsPart:
@@ -34,6 +36,7 @@ class PanelsPart:
             import vcpparse
             component = hal.component(name)
             vcpparse.filename = self.beside_ini(path)
+            vcpparse.numbers = self.kept_numbers()
             vcpparse.create_vcp(frame, component)
             return component
         except (Exception, SystemExit) as e:
@@ -102,7 +105,7 @@ class PanelsPart:
         if len(names) != len(lines):
             print("Invalid tab configuration")
             names = lines = []
-        self.tab_components = []
+        self.tab_components, self.tab_names = [], []
         for i, (name, line) in enumerate(zip(names, lines)):
             frame = self.add_tab(f"user_{i}", name)
             words = line.split()
@@ -111,7 +114,8 @@ class PanelsPart:
                     print(f"axis: EMBED_TAB_COMMAND = {line}: no panels with AXIS_NO_HAL")
                 elif len(words) == 2:
                     inner = self.wrap(str(frame))
-                    self.tab_components.append(self.pyvcp(inner, words[1], name.lower().replace(" ", "_")))
+                    self.tab_names.append(name.lower().replace(" ", "_"))
+                    self.tab_components.append(self.pyvcp(inner, words[1], self.tab_names[-1]))
                 else:
                     print(f"axis: EMBED_TAB_COMMAND = {line}: a panel has one file and no options")
                 continue
@@ -140,17 +144,17 @@ class PanelsPart:
         path = self.container(".gladevcp")
         self.root.tk.call("grid", path, "-row", 0, "-column", 5, "-rowspan", 6, "-sticky", "nsew")
         xid = self.x_window(path)
-        line = f"halcmd loadusr -Wn {name} gladevcp -c {name} -d -x {xid} " + " ".join(words)
+        line = f"{LOADUSR} -Wn {name} gladevcp -c {name} -d -x {xid} " + " ".join(words)
         self.start_child(["halcmd", "loadusr", "-Wn", name, "gladevcp", "-c", name, "-d", "-x", str(xid), *words], line)
 
     def wait_for_children(self, then):
         """Calls `then` when every child that loads a component is done; a failure ends AXIS."""
         for child, line in self.children:
-            if line.startswith("halcmd loadusr") and child.poll() is None:
+            if line.startswith(LOADUSR) and child.poll() is None:
                 self.root.after(CHILD_POLL_MS, lambda: self.wait_for_children(then))
                 return
         for child, line in self.children:
-            if line.startswith("halcmd loadusr") and child.returncode:
+            if line.startswith(LOADUSR) and child.returncode:
                 print(f"axis: '{line}' ended with {child.returncode}")
                 self.exit_status = child.returncode
                 self.root.destroy()
@@ -175,6 +179,24 @@ class PanelsPart:
                 self.root.destroy()
                 return
         self.show()
+
+    def own_components(self):
+        """Names of the components whose pins come and go with the screen."""
+        loaded = [words[words.index("-Wn") + 1] for words in (line.split() for _, line in self.children if line.startswith(LOADUSR)) if "-Wn" in words[:-1]]
+        return {"axisui", "pyvcp", *self.tab_names, *loaded}
+
+    def parts(self):
+        """Ids of the processes that show something in the screen."""
+        owners = [hal.query.comp(name) for name in self.own_components()] if self.comp is not None else []
+        pids = {child.pid for child, _ in self.children if child.poll() is None} | {owner["pid"] for owner in owners if owner}
+        return sorted(pids - {os.getpid()})
+
+    def look_at_children(self):
+        """A program in a tab that crashed is told once; the screen goes on."""
+        for i, (child, line) in enumerate(self.children):
+            if child.poll() and i not in self.told_children and not line.startswith(LOADUSR):
+                self.told_children.add(i)
+                self.notifications.add("error", f"{line}: {self.translate('ended with status %d') % child.returncode}")
 
     def end_children(self):
         """Programs of tabs end with the screen; components that halcmd loaded do not."""

@@ -57,7 +57,7 @@ class PinsPart:
         """Hides spindle, coolant and limit widgets that nothing in HAL listens to."""
         if os.environ.get("AXIS_NO_AUTOCONFIGURE") or self.comp is None:
             return
-        has = {pin: hal.pin_has_writer(pin) for pin in self.watched_pins()}
+        has = self.writers = (self.former or {}).get("writers") or {pin: hal.pin_has_writer(pin) for pin in self.watched_pins()}
         speeds = [f"spindle.0.{n}" for n in ("speed-out", "speed-out-abs", "speed-out-rps", "speed-out-rps-abs")]
 
         def any_of(*names):

@@ -35,9 +35,10 @@ class FilterFailed(Exception):
 class Loader:
     """Programs of one screen; temporary files live in its folder until close()."""
 
-    def __init__(self, settings):
+    def __init__(self, settings, folder=None):
+        """folder: that of a screen that crashed, whose files task may still read."""
         self.s = settings
-        self.folder = tempfile.mkdtemp(prefix="axis-")
+        self.folder = folder or tempfile.mkdtemp(prefix="axis-")
         self.command = None          # the process of somebody else's command that runs
         self.reading = None          # the last reading
         self.megabytes = MOST_MB

@@ -42,6 +42,13 @@ class Recorder:
     def line(at, what):
         return f"{time.strftime('%H:%M:%S', time.localtime(at))}.{int(at % 1 * 1000):03d} {' '.join(map(str, what))}"
 
+    def new_report(self, at):
+        """A name that no report has yet."""
+        stem, more = time.strftime("report-%Y%m%d-%H%M%S", time.localtime(at)), ""
+        while (path := self.folder / f"{stem}{more}.txt").exists():
+            more = f"-{int(more[1:] or 1) + 1}"
+        return path
+
     def header(self):
         return [f"{self.program} {self.version}", time.strftime("%Y-%m-%d %H:%M:%S"), f"configuration {self.ini_path}", f"sha256 {self.config_hash()}", ""]
 
@@ -58,7 +65,7 @@ class Recorder:
                         fcntl.flock(f, fcntl.LOCK_EX | fcntl.LOCK_NB)        # of one that runs it is taken
                     except BlockingIOError:
                         continue
-                    report = self.folder / time.strftime("report-%Y%m%d-%H%M%S.txt", time.localtime(left.stat().st_mtime))
+                    report = self.new_report(left.stat().st_mtime)
                     os.replace(left, report)
                     found.append(report)
             self.file = open(self.folder / f"running-{os.getpid()}", "w", buffering=1)
@@ -85,6 +92,12 @@ class Recorder:
         except OSError:              # the disk is full: the screen goes on
             pass
 
+    def fell(self, trace):
+        """The program ends by an exception: its traceback takes the place of the stack in what watch_crashes() keeps."""
+        if self.file is not None:
+            for text in trace.splitlines():
+                self.add_line(text)
+
     def close(self):
         """The program ends as it should: no report is wanted."""
         if self.file is not None:
@@ -104,7 +117,7 @@ class Recorder:
     def write(self, trace):
         """Path of the report, or None where none can be written."""
         lines = [*self.header(), trace.rstrip(), "", f"the last {len(self.events)} events:", *(self.line(*e) for e in self.events)]
-        path = self.folder / time.strftime("report-%Y%m%d-%H%M%S.txt")
+        path = self.new_report(time.time())
         try:
             self.folder.mkdir(exist_ok=True)
             with open(path, "w") as f:

@@ -26,6 +26,7 @@ from pwd import getpwuid
 from . import clock, instance
 from .inivalues import IniError, IniValues
 from .process import end_with_parent
+from .screen_record import CRASH, MOST, RETRY_S, VARIABLE, WITHIN_S, Restarts
 from .tree import Tree
 
 USAGE = """linuxcnc: Run LinuxCNC
@@ -48,6 +49,7 @@ Options:
 """
 
 WATCH_MS = 100          # at most between two looks at the processes
+BUSY_MS = 1000          # between two looks whether a program runs, while there is no screen
 READY_WAIT_S = 10.0     # for task to publish the first settings
 CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
 SAFE_STOP_S = 2.0       # for motion to be ended after task has died
@@ -243,6 +245,7 @@ class Session:
         self.watched = {}        # pid -> name: the session ends when one of these dies,
         self.dispensable = set()  # or the operator is told: server of remote clients, components of HAL
         self.display = None
+        self.restarts = Restarts(os.path.join(tempfile.gettempdir(), f"linuxcnc.screen.{self.id}"))
         self.task_died = False   # without having put anything in order
         self.splash = None
         self.hal_failed = False  # some HAL file or command, with -k
@@ -581,38 +584,78 @@ class Session:
                          stdin=subprocess.DEVNULL)
 
     def run_display(self):
-        command = self.display_command()
+        """Starts the screen and waits for its end; one that has crashed comes again while the machine goes on. Returns the last one's status."""
+        command, crash = self.display_command(), None
+        ends, descriptors = select.poll(), {}    # a process descriptor is readable when the process has ended
+        for pid in self.watched:
+            with contextlib.suppress(OSError):   # it has gone already
+                descriptors[pid] = os.pidfd_open(pid)
+                ends.register(descriptors[pid], select.POLLIN)
+        while True:
+            self.start_display(command, crash)
+            own = os.pidfd_open(self.display.pid)
+            ends.register(own, select.POLLIN)
+            while (status := self.display.poll()) is None:
+                self.look_at_watched(ends, descriptors)
+                ends.poll(WATCH_MS)
+            ends.unregister(own)
+            os.close(own)
+            if status:
+                print(f"DISPLAY program {command[0]} {ended(status)}", file=sys.stderr, flush=True)
+            if not self.restarts.crashed(status):
+                return status_of(status)
+            crash = ended(status)
+            if self.restarts.too_many():
+                self.go_on_without(command[0], crash, status, ends, descriptors)
+            self.look_at_watched(ends, descriptors)      # a screen may crash because the machine did
+            print(f"{command[0]} is started again, the machine goes on", file=sys.stderr, flush=True)
+
+    def start_display(self, command, crash):
+        """crash: how the screen before ended, None: there was none."""
         self.trace(command)
+        env = self.env | {SESSION + DISPLAY_PART: self.id, VARIABLE: self.restarts.path}
+        if crash:
+            env[CRASH] = crash
+            clock.resume()
+            self.run("halcmd", "-s", "show", "comp", quiet=True)     # whoever uses HAL next takes the pins of the dead away; bits fall
+            parts = set(self.restarts.left().get("parts", ()))
+            end([p for p in session_processes(self.id, DISPLAY_PART) if p in parts])
         try:
-            self.display = clock.spawn(command, "display", env=self.env | {SESSION + DISPLAY_PART: self.id})
+            self.display = clock.spawn(command, "display", env=env)
         except OSError as e:
             raise Failure(f"Can't execute DISPLAY program {command[0]}: {e.strerror}{interpreter_of(command[0], self.env)}") from None
         clock.suspend()
-        ends, descriptors = select.poll(), {}    # a process descriptor is readable when the process has ended
-        for pid in [self.display.pid, *self.watched]:
-            try:
-                descriptors[pid] = os.pidfd_open(pid)
-            except OSError:          # it has gone already
+
+    def look_at_watched(self, ends, descriptors):
+        """Raises Died when a process that the machine needs has ended."""
+        for pid, name in list(self.watched.items()):
+            if lives(pid):
                 continue
-            ends.register(descriptors[pid], select.POLLIN)
-        while True:
-            status = self.display.poll()
-            if status is not None:
-                if status:
-                    print(f"DISPLAY program {command[0]} {ended(status)}", file=sys.stderr)
-                return status_of(status)
-            for pid, name in list(self.watched.items()):
-                if lives(pid):
-                    continue
-                if pid not in self.dispensable:
-                    self.task_died |= name == self.task[:15]
-                    raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
-                lost = "remote clients are cut off" if name == "linuxcncsvr" else "what it did is no longer done"
-                self.tell_operator(f"{name} (process {pid}) died: {lost}, the machine goes on")
-                del self.watched[pid]
-                if pid in descriptors:
-                    ends.unregister(descriptors[pid])
-            ends.poll(WATCH_MS)
+            if pid not in self.dispensable:
+                self.task_died |= name == self.task[:15]
+                raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
+            lost = "remote clients are cut off" if name == "linuxcncsvr" else "what it did is no longer done"
+            self.tell_operator(f"{name} (process {pid}) died: {lost}, the machine goes on")
+            del self.watched[pid]
+            if pid in descriptors:
+                ends.unregister(descriptors[pid])
+
+    def go_on_without(self, name, crash, status, ends, descriptors):
+        """The screen can not come back. Nobody's work is cut off for that: while a program runs another try is made now and then."""
+        if not self.busy():
+            raise Died(f"DISPLAY program {name} crashed {MOST} times within {WITHIN_S:g} s, the last time it {crash}; stopping everything",
+                       status_of(status))
+        print(f"{name} crashed {MOST} times within {WITHIN_S:g} s. A program runs: it goes on to its end without a screen, "
+              f"which is tried again every {RETRY_S:g} s. To end the machine, end process {os.getpid()}", file=sys.stderr, flush=True)
+        until = time.monotonic() + RETRY_S
+        while time.monotonic() < until and self.busy():
+            self.look_at_watched(ends, descriptors)
+            ends.poll(BUSY_MS)
+
+    def busy(self):
+        """Does a program or an MDI line run, or wait for something?"""
+        ask = "import sys, linuxcnc; s = linuxcnc.stat(); s.poll(); sys.exit(s.interp_state == linuxcnc.INTERP_IDLE)"
+        return subprocess.run([sys.executable, "-c", ask], env=self.env, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
 
     def display_command(self):
         program, extra = self.display_program, self.display_args + self.options.extra
@@ -655,6 +698,7 @@ class Session:
         self.try_run(str(self.tree.realtime), "stop", seconds=10.0)
         for pid in end(list(session_processes(self.id))):
             print(f"Could not kill task {comm_of(pid)}, PID={pid}")
+        self.restarts.remove()
         self.remove_segments()
         if remove_lock:
             try:

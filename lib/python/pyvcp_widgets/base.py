@@ -9,10 +9,11 @@ LEAST_CONTRAST = 0.35       # of letters on their ground, of the way from black 
 
 
 class Panel:
-    """One panel: its HAL component, default names, images, widgets. include(widget, file, prefix) fills an include."""
+    """One panel: its HAL component, default names, images, widgets. include(widget, file, prefix) fills an include.
+    numbers: what pins of numbers begin with, by full name."""
 
-    def __init__(self, component, include):
-        self.component, self.include = component, include
+    def __init__(self, component, include, numbers):
+        self.component, self.include, self.numbers = component, include, numbers
         self.counters, self.images, self.widgets = {}, {}, []
 
     def count(self, kind):
@@ -24,6 +25,10 @@ class Panel:
     def default(self, halpin, kind, suffix=""):
         """halpin, or the default name KIND.N and suffix; only default names count."""
         return halpin if halpin else f"{kind}.{self.count(kind)}{suffix}"
+
+    def first(self, name, initval):
+        """The number that a pin begins with."""
+        return float(self.numbers.get(f"{self.component.getprefix()}.{name}", initval))
 
     def new(self, name, kind, direction):
         """A pin. Raises hal.error."""

@@ -24,10 +24,13 @@ def bind_wheel(widget, action):
         widget.bind(event, lambda e: action(turns(e)))
 
 
-def make_param_pin(panel, kind, number, halparam):
+def make_param_pin(panel, kind, number, halparam, initval):
     """The pin that sets the value from outside; always of the default name, unless halparam names it."""
     name = halparam or f"{kind}.{number}.param_pin"
-    return Follower(panel.new(name, hal.HAL_FLOAT, hal.HAL_IN))
+    follower = Follower(panel.new(name, hal.HAL_FLOAT, hal.HAL_IN))
+    follower.seen = panel.first(name, initval)
+    follower.pin.set(follower.seen)
+    return follower
 
 
 class Spinbox(tk.Spinbox):
@@ -36,20 +39,19 @@ class Spinbox(tk.Spinbox):
         number = panel.count("spinbox")
         self.low, self.high, self.resolution = float(min_), float(max_), float(resolution)
         self.pattern = "%" + str(format).lstrip("%")
-        self.value = tk.StringVar(master, value=self.pattern % float(initval))
+        name = halpin or f"spinbox.{number}"
+        first = panel.first(name, initval)
+        self.value = tk.StringVar(master, value=self.pattern % first)
         # Tk's arrows know only %N.Mf: put() writes other formats behind them
         places = re.search(r"\.(\d+)f$", self.pattern)
         super().__init__(master, textvariable=self.value, from_=min_, to=max_, increment=resolution, **options,
                          format=f"%.{places[1] if places else 9}f", command=lambda: self.put(self.number()))
-        self.pin = panel.new(halpin or f"spinbox.{number}", hal.HAL_FLOAT, hal.HAL_OUT)
-        self.param = make_param_pin(panel, "spinbox", number, halparam) if param_pin == 1 else None
-        if self.param:
-            self.param.seen = float(initval)
-            self.param.pin.set(float(initval))
+        self.pin = panel.new(name, hal.HAL_FLOAT, hal.HAL_OUT)
+        self.param = make_param_pin(panel, "spinbox", number, halparam, initval) if param_pin == 1 else None
         self.bind("<Return>", lambda _: self.put(self.number()))
         self.bind("<KP_Enter>", lambda _: self.put(self.number()))
         bind_wheel(self, lambda step: self.put(self.number() + step * self.resolution) or "break")
-        self.put(float(initval))
+        self.put(first)
         self.follow()
 
     def number(self):
@@ -77,23 +79,21 @@ class Scale(tk.Scale):
     """A slider: KIND-f is its value, KIND-i the whole part."""
 
     def __init__(self, master, panel, halpin=None, min_=0, max_=10, initval=0, resolution=1, param_pin=0, halparam=None, **options):
-        self.value = tk.DoubleVar(master, value=float(initval))
+        number = panel.count("scale")
+        name = halpin or f"scale.{number}"
+        first = panel.first(name + "-f", panel.first(name + "-i", initval))
+        self.value = tk.DoubleVar(master, value=first)
         if resolution > 0 and float(resolution) != int(resolution):
             # as many places as the resolution has
             places = len(f"{float(resolution):.9f}".rstrip("0").partition(".")[2])
             options.setdefault("digits", len(str(int(max(abs(min_), abs(max_))))) + places)
         super().__init__(master, variable=self.value, from_=min_, to=max_, resolution=resolution, **options)
         self.step = float(resolution)
-        number = panel.count("scale")
-        name = halpin or f"scale.{number}"
         self.whole = panel.new(name + "-i", hal.HAL_S32, hal.HAL_OUT)
         self.real = panel.new(name + "-f", hal.HAL_FLOAT, hal.HAL_OUT)
-        self.param = make_param_pin(panel, "scale", number, halparam) if param_pin == 1 else None
-        if self.param:
-            self.param.seen = float(initval)
-            self.param.pin.set(float(initval))
+        self.param = make_param_pin(panel, "scale", number, halparam, initval) if param_pin == 1 else None
         bind_wheel(self, lambda step: self.set(self.get() + step * self.step))
-        self.set(float(initval))
+        self.set(first)
         self.follow()
 
     def follow(self):
@@ -177,13 +177,12 @@ class Dial(Wheel):
                  resolution=0.1, param_pin=1, dialcolor="", edgecolor="", dotcolor="grey", **options):
         super().__init__(master, size, size, options)
         number = panel.count("dial")
-        self.pin = panel.new(halpin or f"dial.{number}.out", hal.HAL_FLOAT, hal.HAL_OUT)
-        self.param = make_param_pin(panel, "dial", number, halparam)
+        name = halpin or f"dial.{number}.out"
+        self.pin = panel.new(name, hal.HAL_FLOAT, hal.HAL_OUT)
+        self.param = make_param_pin(panel, "dial", number, halparam, initval)
         self.low, self.high = min_, max_
-        self.first, self.value = float(initval), float(initval)
+        self.first, self.value = float(initval), panel.first(name, initval)
         self.first_step = self.step = float(resolution)
-        self.param.seen = self.value
-        self.param.pin.set(self.value)
         self.make(size, cpr, text, dialcolor, edgecolor, dotcolor)
         self.write(0.35, size / 20, tag="step")
         for button, change in ((1, lambda: self.step / 10), (2, lambda: self.first_step), (3, lambda: self.step * 10)):
@@ -220,10 +219,12 @@ class Jogwheel(Wheel):
                  clear_pin=0, scale_pin=0, **options):
         super().__init__(master, size, size, options)
         base = panel.default(halpin, "jogwheel")
-        self.pin = panel.new(halpin or base + ".count", hal.HAL_FLOAT, hal.HAL_OUT)
+        name = halpin or base + ".count"
+        self.pin = panel.new(name, hal.HAL_FLOAT, hal.HAL_OUT)
         self.reset = Follower(panel.new(base + ".reset", hal.HAL_BIT, hal.HAL_IN)) if clear_pin else None
         self.scale = panel.new(base + ".scale", hal.HAL_FLOAT, hal.HAL_IN) if scale_pin else None
-        self.count, self.shown = 0, 0.0
+        self.count, self.shown = int(panel.first(name, 0)), 0.0
+        self.pin.set(self.count)
         self.make(size, cpr, text, bgcolor, "", "grey")
         self.write(0.35, size / 20, tag="step")
         self.bind("<Enter>", lambda _: self.itemconfigure("face", fill=fillcolor))

@@ -1,6 +1,6 @@
 #!/bin/bash
 # FP-061, FP-133, FP-188: task, the screen itself or halui is killed (kill -9) while a jog key is held: motion ends or stays
-# in the operator's hand, the reason is told, no traceback.
+# in the operator's hand, the reason is told, no traceback. The machine outlives the screen.
 . "$TEST_DIR/../lib/machine.sh"
 for victim in task display halui; do
     echo "== $victim"
@@ -8,7 +8,7 @@ for victim in task display halui; do
     if [ $victim = task ]; then
         screen_test mill killed.py
     else
-        VICTIM=$victim screen_test mill gone.py | sed 's/status [1-9].*/status not 0/'
+        VICTIM=$victim screen_test mill gone.py
         for _ in $(seq 500); do [ -e seen ] && break; sleep 0.02; done
     fi
     cat transcript seen 2> /dev/null
@@ -28,4 +28,4 @@ done
 SH
 rm -rf machine home; cp -r "$top/configs/sim/mill" machine; mkdir home
 "$top/tests/lib/with-display" bash desktop.sh
-rm -rf desktop.sh machine home transcript seen screen.log screen.err
+rm -rf desktop.sh machine home transcript seen at screen.log screen.err
