@@ -157,6 +157,7 @@ sanitize-links:
 
 bench: all $(BENCHES)
 
+include scripts/desktop.mk
 include scripts/install.mk
 
 clean:
