@@ -39,10 +39,13 @@ struct Line {
         va_end(args);
         s.canon.operator_error(buf);
     }
-    template <class... Args> void fail(const char *format, Args... args)
+    void fail(const char *format, ...) __attribute__((format(printf, 2, 3)))
     {
         char head[512];
-        snprintf(head, sizeof head, format, args...);
+        va_list args;
+        va_start(args, format);
+        vsnprintf(head, sizeof head, format, args);
+        va_end(args);
         say("%s%d:REMAP = %s", head, number, text.c_str());
         bad = true;
     }
