@@ -3,11 +3,22 @@
 # folders that others wrote for runtests: HAL, a component of their own, a machine with a script as its display.
 top=$(cd ../../.. && pwd)
 root=$(mktemp -d); trap 'rm -rf "$root"' EXIT
-make -C "$top" -s install DESTDIR="$root" prefix=/usr >&2 || exit 1
+make -C "$top" -s install DESTDIR="$root" prefix=/usr sysconfdir=/etc >&2 || exit 1
 for f in usr/bin/linuxcnc usr/bin/halcmd usr/bin/rtapi_app usr/bin/rs274 usr/lib/linuxcnc/modules/motmod.so \
     usr/lib/linuxcnc/realtime usr/include/linuxcnc/hal.h usr/lib/python3/dist-packages/linuxcnc.so \
     usr/share/linuxcnc/linuxcnc.nml usr/share/linuxcnc/ncfiles usr/share/doc/linuxcnc/examples/sample-configs/sim/mill/mill.ini; do
     [ -e "$root/$f" ] || echo "missing: $f"
+done
+# Every line of the packages' lists names something.
+mkdir -p "$root/lists"
+for f in "$top"/debian/*.install; do
+    while read -r pattern; do
+        compgen -G "$root/$pattern" > "$root/lists/found" || echo "$f: nothing is called $pattern"
+    done < "$f"
+done
+for f in "$root"/usr/share/applications/*.desktop; do
+    program=$(sed -n 's/^Exec=//p' "$f")
+    [ -x "$root/usr/bin/$program" ] || echo "$f: no program $program"
 done
 # Nothing of this tree may help: only the installed one is on the paths.
 env -i HOME="$HOME" PATH="/usr/bin:/bin" KERF_INSTANCE="${KERF_INSTANCE:-inst}" \
