@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Opening and starting programs: the dialogs, the text, the progress bar."""
 
+import _tkinter
 import filecmp
 import os
 import sys
@@ -21,6 +22,7 @@ LONGEST_PREVIEW_S = 60.0     # a program without an end is not read for ever, al
 LONGEST_RESTORE_S = 120.0
 
 BESIDE_S = 0.02              # the screen looks around so often while something long is done
+ANSWER_S = 0.1               # and goes on with it after this time at the latest
 LONGEST_NAME = 250           # task cuts longer paths off
 LONGEST_OPEN_S = 5.0         # of task
 OPEN_TRIES = 3               # while somebody writes the file
@@ -139,11 +141,18 @@ class OpeningPart:
         self.loading = False
         self.keep_record(True)
 
+    def answer(self):
+        """Handles what waits, for ANSWER_S at most: on a slow machine the next update cycle is due before the last one is drawn,
+        and Tk's own update() would never come back."""
+        end = time.monotonic() + ANSWER_S
+        while self.root.tk.dooneevent(_tkinter.DONT_WAIT) and time.monotonic() < end:
+            pass
+
     def until_done(self):
         """Task did the last command, or LONGEST_OPEN_S have passed; the screen goes on."""
         end = time.monotonic() + LONGEST_OPEN_S
         while self.command.wait_complete(BESIDE_S) == -1 and time.monotonic() < end:
-            self.root.update()
+            self.answer()
 
     def refresh_preview(self):
         """The preview alone is read anew; the view stays."""
@@ -343,7 +352,7 @@ class OpeningPart:
                 shown = self.percent
                 width, height = (int(self.root.tk.call("winfo", w, ".info.progress")) for w in ("width", "height"))
                 self.root.tk.call(".info.progress", "coords", 1, 0, 0, width * shown / 100, height)
-            self.root.update()
+            self.answer()
             if self.cancel_loading:
                 self.loader.end()
             self.loader.look()
@@ -406,7 +415,7 @@ class OpeningPart:
                     break
                 if self.cancel_loading or s.state == linuxcnc.RCS_ERROR or clock.now() > end:
                     break
-                self.root.update()
+                self.answer()
                 clock.sleep(0.02)
         finally:
             self.loading = False

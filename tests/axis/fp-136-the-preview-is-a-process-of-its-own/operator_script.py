@@ -2,6 +2,7 @@
 import os
 import signal
 import sys
+import time
 
 import linuxcnc
 import operator_lib as lib
@@ -55,6 +56,18 @@ def script(op):
     show("as usual")
     run()
 
+    rounds = [200]
+
+    def late():
+        """As an update cycle on a machine that is too slow for it: the next one is due before this one is done."""
+        rounds[0] -= 1
+        if rounds[0]:
+            op.root.after(1, late)
+            time.sleep(0.01)
+    app.loader.read = lambda *args: (late(), read(*args))[1]
+    app.open_file_guts(os.path.join(here, "part.ngc"))
+    print("opened while update cycles are late:", rounds[0] > 0, op.messages())
+    op.until(lambda: rounds[0] == 0, "the end of the cycles")
     open_while("pins.ngc")
     print("reads the machine's pins:", [round(25.4 * x) for x in app.preview.program.extents[1]], op.messages())
 
