@@ -71,7 +71,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.loaded_file = self.shown_file = self.kept = None    # what the operator chose; what task opens; a copy of that
         self.is_filtered = self.loading = self.cancel_loading = False
         self.loads = 0               # so many programs were shown
-        self.disk_state, self.changed_on_disk = None, False
+        self.disk_state, self.changed_on_disk, self.loaded_text, self.comparison = None, False, (0, None), None
         self.limit_path = self.limit_conditions = None   # what the limits are checked against, under which conditions it was read
         self.limits_final = False    # another reading would find out no more
         self.joints_shown = None

@@ -149,7 +149,7 @@ def make(app):
 
         def gcode_properties(*event):
             rows = program.properties(app.shown_file, app.loaded_file if app.is_filtered else None, app.preview.program,
-                                      app.settings, bool(v.metric.get()), _, app.estimate.total)
+                                      app.settings, bool(v.metric.get()), _, app.estimate.total, app.kept)
             rows += waits.rows(app.estimate.times and app.estimate.times.waits, app.waits.values, _)
             text = "\n".join(f"{name + ':':<18} " + str(value).replace("\n", "\n" + 19 * " ") for name, value in rows)
             dialogs.ask(root, _("G-Code Properties"), text, "info", 0, _("OK"), escape=0, font="TkFixedFont")

@@ -26,6 +26,7 @@ ANSWER_S = 0.1               # and goes on with it after this time at the latest
 LONGEST_NAME = 250           # task cuts longer paths off
 LONGEST_OPEN_S = 5.0         # of task
 OPEN_TRIES = 3               # while somebody writes the file
+HASHED_AT_ONCE = 1 << 20     # bytes; what takes longer is done beside
 
 
 class OpeningPart:
@@ -99,9 +100,13 @@ class OpeningPart:
         for _ in range(OPEN_TRIES):              # what is copied is what task takes: the file does not change from the one to the other
             self.disk_state, self.changed_on_disk = self.state_on_disk(), False
             self.kept = self.beside(self.loader.kept_text, self.shown_file)
+            kept = self.beside(program.text_hash, self.kept)
+            loaded = self.beside(program.text_hash, self.loaded_file) if self.is_filtered else kept
+            self.loaded_text = self.disk_state and self.disk_state[0], loaded
             c.program_open(self.shown_file)
             self.until_done()
-            if self.state_on_disk() == self.disk_state:
+            self.stat.poll()
+            if self.stat.program_hash == kept or self.state_on_disk() == self.disk_state:
                 break
         self.show_kept()
 
@@ -251,7 +256,20 @@ class OpeningPart:
             found = os.stat(self.loaded_file)
         except (OSError, TypeError):
             return None
-        return found.st_mtime_ns, found.st_size, found.st_ino
+        return found.st_size, found.st_mtime_ns, found.st_ctime_ns, found.st_ino
+
+    def same_text(self, now):
+        """Whether the file, that has another state `now`, holds the text that was opened; None: that is still being found out."""
+        if now is None or now[0] != self.loaded_text[0]:
+            return False
+        if self.comparison is None or self.comparison[0] != now:
+            path, found = self.loaded_file, []
+            self.comparison = now, found
+            if now[0] <= HASHED_AT_ONCE:
+                found.append(program.text_hash(path))
+            else:
+                threading.Thread(target=lambda: found.append(program.text_hash(path)), daemon=True).start()
+        return self.comparison[1][0] == self.loaded_text[1] if self.comparison[1] else None
 
     def shown_is_old(self):
         """The file was changed after it was opened: whoever opens it again gets another program. The operator is told."""
@@ -270,7 +288,12 @@ class OpeningPart:
         if self.loaded_file is None or self.loading:
             return
         now = self.state_on_disk()
-        if now != self.disk_state:
+        if now == self.disk_state:
+            return
+        same = self.same_text(now)
+        if same:                                 # a new time alone, or the change was taken back
+            self.disk_state, self.changed_on_disk = now, False
+        elif same is not None:
             self.disk_state, self.changed_on_disk = now, True
             what = self.translate("%s was changed on disk. The program as it was opened stays loaded; reload to take the new one.") if now else \
                 self.translate("%s is gone from the disk. The program as it was opened stays loaded.")

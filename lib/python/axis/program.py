@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Opening programs: filters, the text that is shown, the preview's data. No widgets here."""
 
+import hashlib
 import os
 import re
 import shutil
@@ -30,6 +31,18 @@ class FilterFailed(Exception):
     def __init__(self, program, status, text):
         super().__init__(f"The program '{program}' exited with code {status}.  Any error messages it produced are shown below:")
         self.program, self.status, self.text = program, status, text
+
+
+def text_hash(path):
+    """SHA-256 of a file as task has it in stat.program_hash; None when it can not be read."""
+    found = hashlib.sha256()
+    try:
+        with open(path, "rb") as f:
+            while piece := f.read(1 << 20):
+                found.update(piece)
+    except OSError:
+        return None
+    return found.hexdigest()
 
 
 class Loader:
@@ -216,14 +229,18 @@ def limit_warnings(program, settings, stat, translate=str):
     return warnings
 
 
-def properties(path, source, program, settings, metric, translate=str, run_time=None):
-    """(name, value) lines of the properties dialog. run_time: seconds that the planner needs, None: not known yet."""
+def properties(path, source, program, settings, metric, translate=str, run_time=None, kept=None):
+    """(name, value) lines of the properties dialog. run_time: seconds that the planner needs, None: not known yet. kept: the copy that is loaded."""
     if path is None:
         return [(translate("Name"), translate("No file loaded"))]
-    with open(path, errors="replace") as f:
+    kept = kept or path
+    with open(kept, errors="replace") as f:
         lines = sum(1 for _ in f)
     rows = [(translate("Name"), path if source is None else translate("generated from %s") % source),
-            (translate("Size"), translate("%d bytes\n%d G-code lines") % (os.path.getsize(path), lines))]
+            (translate("Size"), translate("%d bytes\n%d G-code lines") % (os.path.getsize(kept), lines))]
+    total = text_hash(kept)
+    if total:
+        rows.append(("SHA-256", f"{total[:32]}\n{total[32:]}"))
     if program is None:
         return rows
     scale, fmt, unit = (MM_PER_INCH, "%.3f", "mm") if metric else (1.0, "%.4f", "in")

@@ -59,7 +59,7 @@ int Canterp::open(const char *filename)
     if (s.main_open) return wrong({0, 0, "A file is already open", ""});
     close_file();
     auto file = std::make_unique<LineSource>();
-    if (!file->open(filename, s.options.snapshot))
+    if (!ngc::open_file(s, *file, filename))
         return wrong({0, 0, "Unable to open file <" + std::string(filename) + ">", strerror(errno)});
     s.sources.push_back(std::move(file));
     s.source = 0;

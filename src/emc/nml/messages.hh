@@ -14,7 +14,8 @@
 #include "nml_code.hh"
 #include "state_tag.h"
 
-constexpr int EMC_SYSTEM_CMD_LEN = 256, RESTORE_TEXT_LEN = 2048, CONTROL_NAME_LEN = 40;
+constexpr int EMC_SYSTEM_CMD_LEN = 256, RESTORE_TEXT_LEN = 2048, CONTROL_NAME_LEN = 40,
+              PROGRAM_HASH_LEN = 65;
 constexpr int EMC_MESSAGE_LOG_LENGTH = 32, EMC_MDI_QUEUE_SHOWN = 16;
 constexpr int EMC_ACTIVE_G_CODES = 17, EMC_ACTIVE_M_CODES = 10, EMC_ACTIVE_SETTINGS = 5;
 

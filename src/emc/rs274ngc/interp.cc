@@ -138,6 +138,8 @@ int read_ini(Setup &s)
     s.program_start_code = ini.findStringV("PROGRAM_START_CODE", R, "");
     s.program_prefix = expand_path(ini.findStringV("PROGRAM_PREFIX", "DISPLAY", ""));
     s.sub_path = path_list(ini.findStringV("SUBROUTINE_PATH", R, ""));
+    if (s.options.copies)
+        s.options.copies->keep_called = strcasecmp(ini.findStringV("CALLED_FILES", R, "KEEP").c_str(), "FRESH") != 0;
     s.wizard_root = expand_path(ini.findStringV("WIZARD_ROOT", "WIZARD", ""));
     s.num_spindles = ini.findIntV("SPINDLES", "TRAJ", 1, 1, CANON_MAX_SPINDLES);
     s.log_level = ini.findIntV("LOG_LEVEL", R, 0);
@@ -408,7 +410,7 @@ int Interp::open(const char *filename)
     CHECK(s.main_open, "A file is already open");
     CHECK(strlen(filename) > INTERP_LINELEN - 1, "File name too long");
     auto file = std::make_unique<LineSource>();
-    if (!file->open(filename, s.options.snapshot)) {
+    if (!open_file(s, *file, filename)) {
         const char *why = strerror(errno);
         const int status = s.fail(__func__, "Unable to open file <%s>", filename);
         s.fault.fix = why;
@@ -827,7 +829,6 @@ const char *Interp::file_name(char *buf, size_t size) const
     snprintf(buf, size, "%s", file());
     return buf;
 }
-bool Interp::program_changed_on_disk() const { return s->main_open && s->sources[0]->changed(); }
 
 const char *Interp::error_text(int code) const
 {

@@ -49,10 +49,17 @@ struct Fault {
     std::string report() const;
 };
 
+namespace ngc
+{
+class ProgramCopies;
+}
+
 struct InterpOptions {
     std::string ini_file; ///< empty: no INI, all defaults
     bool task = false;    ///< value of #<_task>
-    bool snapshot = false; ///< programs run as they were when opened, whatever happens on disk
+    /// Programs run as they were when opened, and what they call as it was at the first call,
+    /// whatever happens on disk. Null: files are read as they are.
+    std::shared_ptr<ngc::ProgramCopies> copies;
     /// INI_FILE_NAME of the environment and defaults for the rest
     static InterpOptions from_environment();
 };
@@ -140,8 +147,6 @@ class Interp
     size_t line_length() const;
     int file_open() const;
     const char *file_name(char *buf, size_t size) const;
-    /// The open program's file is no longer the one that was opened.
-    bool program_changed_on_disk() const;
 
     // ---- errors ---------------------------------------------------------------
     /// Message of a result code: the saved text for INTERP_ERROR, "" when there is none.

@@ -191,7 +191,7 @@ int go_to_sub(Setup &s, const std::string &name)
 {
     const std::string short_name = last_component(name);
     const Label *known = s.labels.find(short_name);
-    if (known && known->source >= 0) {
+    if (known && known->source >= 0 && is_current(s, known->source)) {
         go_to(s, known->source, known->offset, known->line - 1);
     } else {
         const std::string path = find_sub_file(s, name);

@@ -225,21 +225,51 @@ void a_snapshot_runs_as_it_was_opened() // FP-130
         TestCanon canon;
         Interp interp(canon);
         InterpOptions o;
-        o.snapshot = snapshot;
+        if (snapshot) o.copies = std::make_shared<ngc::ProgramCopies>();
         EXPECT(interp.init(o) == INTERP_OK);
         std::string text;
         for (int i = 0; i < 60000; ++i) text += "G0 X1\n";
         write_file("snap.ngc", text + "G0 X2\nM2\n");
         EXPECT(interp.open("snap.ngc") == INTERP_OK);
-        EXPECT(!interp.program_changed_on_disk());
         EXPECT(interp.read() == INTERP_OK && interp.execute() == INTERP_OK);
         write_file("snap.ngc", text + "G0 X666\nM2\n"); // saved by an editor, in place
-        EXPECT(interp.program_changed_on_disk());
+        EXPECT(!snapshot || o.copies->changed() == "snap.ngc");
         EXPECT(run_to_end(interp) == INTERP_EXIT);
         EXPECT((canon.position.tran.x == 2) == snapshot);
         interp.exit();
     }
     unlink("snap.ngc");
+}
+
+void called_files_stay_as_they_were_first_called() // FP-130
+{
+    for (const char *setting : {"KEEP", "FRESH"}) {
+        const std::string ini = write_file(setting, std::string("[RS274NGC]\nCALLED_FILES = ") + setting + "\n");
+        write_file("part.ngc", "o<part> sub\nG0 X1\no<part> endsub\n");
+        write_file("caller.ngc", "o<part> call\nG0 X0\no<part> call\nM2\n");
+        TestCanon canon;
+        Interp interp(canon);
+        InterpOptions o;
+        o.ini_file = ini;
+        o.copies = std::make_shared<ngc::ProgramCopies>();
+        EXPECT(interp.init(o) == INTERP_OK);
+        auto change = [](int x) {
+            write_file("part.ngc", "o<part> sub\nG0 X" + std::to_string(x) + "\n(it is)\no<part> endsub\n");
+        };
+        EXPECT(interp.open("caller.ngc") == INTERP_OK);
+        for (int line = 0; line < 5; ++line) EXPECT(interp.read() == INTERP_OK && interp.execute() == INTERP_OK);
+        change(2);
+        const bool keeps = *setting == 'K';
+        EXPECT(o.copies->news() == (keeps ? std::vector<std::string>{"part.ngc"} : std::vector<std::string>{}));
+        EXPECT(o.copies->news().empty()); // once
+        EXPECT(run_to_end(interp) == INTERP_EXIT);
+        EXPECT(canon.position.tran.x == (keeps ? 1 : 2));
+        EXPECT(o.copies->changed() == (keeps ? "part.ngc" : ""));
+        change(3);
+        EXPECT(interp.execute("o<part> call") == INTERP_OK && canon.position.tran.x == 3); // by hand: as it is now
+        interp.exit();
+    }
+    for (const char *name : {"KEEP", "FRESH", "part.ngc", "caller.ngc"}) unlink(name);
 }
 
 void programs_start_as_the_ini_file_says() // FP-104
@@ -491,6 +521,7 @@ int main()
         {"faults name line, column and remedy", faults_name_line_column_and_remedy},
         {"errors leave no trace", errors_leave_no_trace},
         {"FP-130 a snapshot runs as it was opened", a_snapshot_runs_as_it_was_opened},
+        {"FP-130 called files stay as they were first called", called_files_stay_as_they_were_first_called},
         {"FP-104 programs start as the INI file says", programs_start_as_the_ini_file_says},
         {"FP-110 outputs keep their place", outputs_keep_their_place},
         {"a printed block reads as the same block", a_printed_block_reads_as_the_same_block},

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The interpreter and its command line driver.
-PUBLIC_HEADERS += src/emc/rs274ngc/interp.hh
+PUBLIC_HEADERS += src/emc/rs274ngc/interp.hh src/emc/rs274ngc/program_copy.hh
 RS274_SOURCES := $(filter-out src/emc/rs274ngc/rs274_%,$(wildcard src/emc/rs274ngc/*.cc)) src/emc/canon/canon.cc src/rtapi/kerf_paths.c
-$(eval $(call library,rs274,0,$(RS274_SOURCES),linuxcncini tooldata -ldl,-Isrc/emc/rs274ngc))
+$(eval $(call library,rs274,0,$(RS274_SOURCES),linuxcncini tooldata -ldl -lcrypto,-Isrc/emc/rs274ngc))
 $(eval $(call program,rs274,src/emc/rs274ngc/rs274_main.cc src/emc/canon/printer.cc,rs274 tooldata linuxcncini -ldl $(if $(filter yes,$(HAVE_READLINE)),-lreadline),-Isrc/emc/canon))
 # Python inside the interpreter; loaded only when an INI asks for it.
 PYPLUGIN_SOURCES := $(wildcard src/emc/rs274ngc/pyplugin/*.cc)

@@ -12,10 +12,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include <cstdlib>
-
 #include <fcntl.h>
-#include <sys/sendfile.h>
 #include <unistd.h>
 
 namespace ngc
@@ -27,38 +24,22 @@ void LineSource::close()
 {
     if (fd >= 0) ::close(fd);
     fd = -1;
+    copy.reset();
     window_start = 0;
     filled = cursor = 0;
     at_end = false;
     line_number = 0;
 }
 
-// Replaces the open file by a nameless copy of it.
-bool LineSource::copy_aside()
+void LineSource::open(std::shared_ptr<ProgramCopy> text)
 {
-    const char *dir = getenv("TMPDIR");
-    int copy = ::open(dir && *dir ? dir : "/tmp", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (copy < 0) return true; // a file system without nameless files: the file itself is read
-    off_t left = opened.st_size;
-    while (left > 0) {
-        const ssize_t n = sendfile(copy, fd, nullptr, size_t(left));
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) break;
-        left -= n;
-    }
-    if (left > 0) {
-        const int why = errno;
-        ::close(copy);
-        lseek(fd, 0, SEEK_SET);
-        errno = why;
-        return true;
-    }
-    ::close(fd);
-    fd = copy;
-    return true;
+    close();
+    name = text->path();
+    copy = std::move(text);
+    if (window.size() != WINDOW) window.assign(WINDOW, 0);
 }
 
-bool LineSource::open(const std::string &path, bool snapshot)
+bool LineSource::open(const std::string &path)
 {
     close();
     name = path;
@@ -72,7 +53,6 @@ bool LineSource::open(const std::string &path, bool snapshot)
         return false;
     }
     if (!S_ISREG(opened.st_mode)) return slurp();
-    if (snapshot && !copy_aside()) return false;
     size_t wanted = WINDOW;
     wanted = std::min<size_t>(wanted, size_t(opened.st_size) + 4096);
     if (window.size() != wanted) window.assign(wanted, 0);
@@ -107,7 +87,10 @@ bool LineSource::fill(size_t keep_from)
     if (filled == window.size()) return false;
     ssize_t n;
     do {
-        n = pread(fd, window.data() + filled, window.size() - filled, window_start + int64_t(filled));
+        char *to = window.data() + filled;
+        const size_t room = window.size() - filled;
+        const int64_t at = window_start + int64_t(filled);
+        n = copy ? copy->read(to, room, at) : pread(fd, to, room, at);
     } while (n < 0 && errno == EINTR);
     if (n <= 0) {
         at_end = true;
@@ -119,7 +102,7 @@ bool LineSource::fill(size_t keep_from)
 
 bool LineSource::next(std::string_view &line, bool &had_newline)
 {
-    if (fd < 0) return false;
+    if (!is_open()) return false;
     size_t scanned = cursor;
     for (;;) {
         const char *from = window.data() + scanned;
@@ -171,6 +154,7 @@ void LineSource::seek(int64_t offset)
 
 bool LineSource::changed() const
 {
+    if (copy) return copy->changed();
     struct stat now;
     if (fd < 0) return false;
     if (stat(name.c_str(), &now) != 0) return true;

@@ -67,6 +67,10 @@ void clear_labels(Setup &s);
 // ---- subfiles.cc: which file holds a sub ---------------------------------------------------------
 /// Path of NAME.ngc in the documented search order; empty when there is none.
 std::string find_sub_file(const Setup &s, const std::string &name);
+/// Opens a program (as it was at first) or a called file. now: as it is now. False: errno says why.
+bool open_file(Setup &s, LineSource &file, const std::string &path, bool now = false);
+/// Of s.sources: what is to be read by a call from here.
+bool is_current(Setup &s, int i);
 /// Index in s.sources of an opened file, -1 with errno.
 int open_source(Setup &s, const std::string &path);
 std::string expand_path(const std::string &path);

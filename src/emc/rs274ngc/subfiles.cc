@@ -2,8 +2,8 @@
  *
  * subfiles.cc - which file holds a called sub, and the files that are open.
  *
- * Method: files of calls under way stay open, so a change on disk cannot reach a
- *         running program in the middle; a few more are kept for the next call.
+ * Method: files of calls under way stay open; a few more are kept for the next call. Task
+ *         reads copies: a program has those of its first calls, an MDI line what is on disk now.
  * Thread: [task]
  * Source: O-word sheet, section 3 "File search"
  */
@@ -72,21 +72,57 @@ std::string find_sub_file(const Setup &s, const std::string &name)
     return s.wizard_root.empty() ? std::string() : in_tree(s.wizard_root, file, 8);
 }
 
+bool open_file(Setup &s, LineSource &file, const std::string &path, bool now)
+{
+    if (!s.options.copies) return file.open(path);
+    std::shared_ptr<ProgramCopy> copy = now ? ProgramCopy::of(path) : s.options.copies->get(path);
+    if (!copy) return false;
+    file.open(std::move(copy));
+    return true;
+}
+
+namespace
+{
+
+bool in_use(const Setup &s, int i)
+{
+    bool found = i == s.source;
+    for (int level = 0; level < s.call_level; ++level) found = found || s.frames[level].source == i;
+    return found;
+}
+
+// Its labels are not known any more: they must be found again.
+void forget_labels(Setup &s, int i)
+{
+    for (auto &entry : s.labels)
+        if (entry.value.source == i) entry.value.source = -2;
+}
+
+} // namespace
+
+bool is_current(Setup &s, int i)
+{
+    const LineSource &file = *s.sources[size_t(i)];
+    if (!s.options.copies || i == 0 || in_use(s, i)) return true;
+    return s.mdi ? !file.changed() : file.read_copy() == s.options.copies->get(file.path());
+}
+
 int open_source(Setup &s, const std::string &path)
 {
-    for (size_t i = 0; i < s.sources.size(); ++i)
-        if (s.sources[i]->is_open() && s.sources[i]->path() == path) return int(i);
+    for (size_t i = 0; i < s.sources.size(); ++i) {
+        if (!s.sources[i]->is_open() || s.sources[i]->path() != path) continue;
+        if (is_current(s, int(i))) return int(i);
+        forget_labels(s, int(i));
+        return open_file(s, *s.sources[i], path, s.mdi) ? int(i) : -1;
+    }
     auto fresh = std::make_unique<LineSource>();
-    if (!fresh->open(path)) return -1;
+    if (!open_file(s, *fresh, path, s.mdi)) return -1;
     // Keep a bounded number open: the program, those in the call stack, and some more.
     enum { KEPT = 32 };
     if (s.sources.size() >= KEPT) {
         for (size_t i = 1; i < s.sources.size(); ++i) {
-            bool in_use = int(i) == s.source;
-            for (int level = 0; level < s.call_level; ++level) in_use = in_use || s.frames[level].source == int(i);
-            if (in_use) continue;
-            for (auto &entry : s.labels)
-                if (entry.value.source == int(i)) entry.value.source = -2; // its file must be found again
+            if (in_use(s, int(i))) continue;
+            forget_labels(s, int(i));
             s.sources[i] = std::move(fresh);
             return int(i);
         }

@@ -85,6 +85,7 @@ InterpOptions Task::interp_options() const {
     InterpOptions options;
     options.ini_file = ini_file_;
     options.task = true;
+    options.copies = copies_;
     return options;
 }
 
@@ -298,6 +299,7 @@ void Task::cycle() {
     watch_program_error();
     watch_jogs();
     watch_control();
+    watch_copies();
     journal_.update(stat_, program_,
                     stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE);
     send_messages();
@@ -500,7 +502,7 @@ void Task::publish() {
     stat_.command_type = t.command_type = type;
     int status;
     const bool done = idle() && stat_.motion.status == RCS_DONE && stat_.io.status == RCS_DONE && mdi_queue_.empty() &&
-                      !busy && restore_ != Restore::looking;
+                      !busy && restore_ != Restore::looking && !opening_;
     if (plan_error_ || refused_stranger_ || execute_error_ || t.execState == EMC_TASK_EXEC_ERROR ||
         stat_.motion.status == RCS_ERROR || stat_.io.status == RCS_ERROR)
         status = RCS_ERROR;

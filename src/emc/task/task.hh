@@ -26,6 +26,7 @@
 #include "journal.hh"
 #include "motion_link.hh"
 #include "offsets_now.hh"
+#include "program_copy.hh"
 #include "task_canon.hh"
 #include "user_codes.hh"
 
@@ -71,6 +72,9 @@ private:
     void switched_by_hand(int spindle, int dir);
     int set_state(int state);
     int plan_open(const EMC_TASK_PLAN_OPEN &m);
+    int copy_program(size_t bytes);
+    int open_failed(const std::string &name, int code);
+    void watch_copies();
     int plan_close();
     bool may_run();
     int plan_run(int line);
@@ -196,11 +200,9 @@ private:
     bool error_stop_due_ = false; // a program ended by an error: its outputs are still on
     int64_t error_stop_at_ = 0;
     std::string program_;        // opened last
-    struct FileId {
-        long long seconds = 0, nanoseconds = 0, size = -1;
-        unsigned long long inode = 0;
-    } program_id_; // its state then
-    static FileId identity(const std::string &file);
+    std::shared_ptr<ngc::ProgramCopies> copies_ = std::make_shared<ngc::ProgramCopies>(); // what is executed
+    std::shared_ptr<ngc::ProgramCopy> opening_; // a long program is being copied, some of it each cycle
+    int64_t copies_looked_at_ = 0;
     // Start at a line: what was asked, and how things stood then.
     enum class Restore { none, looking, shown, tool } restore_ = Restore::none;
     std::unique_ptr<DryRun> dry_;

@@ -17,12 +17,31 @@
 
 namespace {
 constexpr int64_t CHAIN_PATIENCE_NS = 500'000'000; // for relays of an emergency stop chain to close
+constexpr size_t COPY_A_CYCLE = 1024 * 1024; // bytes of a program, a few ms; shorter ones are open at once
+
+// Of commands that are given while a program is being opened: those that need it.
+bool needs_program(NMLTYPE type) {
+    switch (type) {
+    case EMC_TASK_PLAN_RUN_TYPE:
+    case EMC_TASK_PLAN_STEP_TYPE:
+    case EMC_TASK_PLAN_RESTORE_TYPE:
+    case EMC_TASK_PLAN_EXECUTE_TYPE:
+    case EMC_TASK_PLAN_CLOSE_TYPE:
+    case EMC_TASK_PLAN_INIT_TYPE:
+    case EMC_TASK_SET_MODE_TYPE: return true;
+    default: return false;
+    }
+}
 }
 
 void Task::plan() {
     EMC_TASK_STAT &t = stat_.task;
     if (wait_ && idle()) wait_ = false;
     bool fresh = command_ && command_serial_ != stat_.echo_serial_number;
+    if (opening_ && copy_program(fresh && needs_program(command_.type()) ? SIZE_MAX : COPY_A_CYCLE) != 0) {
+        plan_error_ = true;
+        control_error_ |= control_.owned_by(command_writer_);
+    }
     Situation s = situation(t);
     bool took = false; // a command was done, which takes the place of reading ahead
     if (fresh) {
@@ -377,29 +396,45 @@ int Task::plan_open(const EMC_TASK_PLAN_OPEN &m) {
     } else {
         plan_close(); // clients that open a second program need not close the first
     }
-    EMC_TASK_STAT &t = stat_.task;
     forget_restore();
-    t.motionLine = t.currentLine = t.readLine = 0;
+    stat_.task.motionLine = stat_.task.currentLine = stat_.task.readLine = 0;
     forget_fault();
-    int r = interp_->open(name.c_str());
-    if (r != INTERP_OK) {
-        interp_failed(r, false);
-        t.interpState = EMC_TASK_INTERP_IDLE;
-        error_stop_due_ = false;
-        operator_error(("can't open " + name).c_str());
+    opening_ = ngc::ProgramCopy::begin(name);
+    if (opening_) return copy_program(COPY_A_CYCLE);
+    return open_failed(name, interp_->open(name.c_str())); // it says why
+}
+
+// Copies some more of the program that is being opened; when it is there, opens it.
+int Task::copy_program(size_t bytes) {
+    const int more = opening_->step(bytes);
+    if (more > 0) {
+        eager_ = true;
+        return 0;
+    }
+    const std::shared_ptr<ngc::ProgramCopy> copy = std::move(opening_);
+    if (more < 0) {
+        operator_error(("can't read " + copy->path() + ": " + strerror(errno)).c_str());
         return -1;
     }
+    const std::shared_ptr<ngc::ProgramCopy> before = copies_->program();
+    copies_->set_program(copy);
+    const std::string name = copy->path();
+    if (const int r = interp_->open(name.c_str()); r != INTERP_OK) {
+        copies_->set_program(before); // that one stays open
+        return open_failed(name, r);
+    }
     program_ = name;
-    program_id_ = identity(name);
-    copy_text(t.file, name.c_str());
+    copy_text(stat_.program_hash, copy->hash().c_str());
+    copy_text(stat_.task.file, name.c_str());
     return 0;
 }
 
-Task::FileId Task::identity(const std::string &file) {
-    FileId id;
-    struct stat st;
-    if (::stat(file.c_str(), &st) == 0) id = {st.st_mtim.tv_sec, st.st_mtim.tv_nsec, st.st_size, st.st_ino};
-    return id;
+int Task::open_failed(const std::string &name, int code) {
+    interp_failed(code, false);
+    stat_.task.interpState = EMC_TASK_INTERP_IDLE;
+    error_stop_due_ = false;
+    operator_error(("can't open " + name).c_str());
+    return -1;
 }
 
 int Task::plan_close() {
@@ -448,13 +483,27 @@ bool Task::may_run() {
         operator_error("No program is open");
         return false;
     }
-    FileId now = identity(program_);
-    if (now.size != program_id_.size || now.seconds != program_id_.seconds ||
-        now.nanoseconds != program_id_.nanoseconds || now.inode != program_id_.inode) {
-        operator_error((program_ + " was changed after it was opened: open it again to run what it says now").c_str());
-        return false;
-    }
-    return true;
+    const std::string other = copies_->changed();
+    if (other.empty()) return true;
+    operator_error(other == program_
+                       ? (other + " was changed after it was opened: open it again to run what it says now").c_str()
+                       : (other + " was changed after " + program_ +
+                          " had called it: open the program again to run what it says now")
+                             .c_str());
+    return false;
+}
+
+// What a running program calls may change on disk: it goes on with what it has, and says so.
+void Task::watch_copies() {
+    constexpr int64_t EVERY_NS = 500'000'000;
+    if (stat_.task.mode != EMC_TASK_MODE_AUTO || stat_.task.interpState == EMC_TASK_INTERP_IDLE) return;
+    const int64_t now = kerf_clock_now_ns();
+    if (now < copies_looked_at_ + EVERY_NS) return;
+    copies_looked_at_ = now;
+    for (const std::string &path : copies_->news())
+        operator_text((path + " was changed on disk. The program goes on with it as it was when first called; "
+                              "open the program again to take the new one")
+                          .c_str());
 }
 
 int Task::plan_run(int line) {
@@ -465,16 +514,8 @@ int Task::plan_run(int line) {
     error_stop_due_ = false;
     t.interpreter_errcode = 0;
     forget_fault();
-    if (!interp_->file_open()) {
-        int r = interp_->open(program_.c_str());
-        if (r != INTERP_OK) {
-            interp_failed(r, false);
-            t.interpState = EMC_TASK_INTERP_IDLE;
-            error_stop_due_ = false;
-            operator_error(("can't open " + program_).c_str());
-            return -1;
-        }
-    }
+    if (!interp_->file_open())
+        if (const int r = interp_->open(program_.c_str()); r != INTERP_OK) return open_failed(program_, r);
     start_line_ = line;
     running_tag_ = {};
     t.interpState = EMC_TASK_INTERP_READING;

@@ -14,6 +14,7 @@ FUZZ_rs274 := src/emc/rs274ngc/rs274_fuzz.cc $(RS274_SOURCES) $(TOOLDATA_SOURCES
 FUZZ_FLAVOUR_halcmd := ul
 FUZZ_FLAVOUR_parsers := ul
 FUZZ_FLAVOUR_rs274 := ul
+FUZZ_LIBS_rs274 := -lcrypto
 FUZZ_FLAVOUR_host := host
 FUZZ_CFLAGS := -g -O1 -fsanitize=fuzzer-no-link,$(FUZZ_SANITIZERS) -fno-sanitize-recover=undefined
 
@@ -35,11 +36,11 @@ FUZZ_OBJECTS_$(1) := $(call objs,$(FUZZ_FLAVOUR_$(1)),$(FUZZ_$(1))) $(call objs,
 DEPS += $$(FUZZ_OBJECTS_$(1):.o=.d)
 $(O)/test/$(1)-fuzz: $$(FUZZ_OBJECTS_$(1))
 	$$(call say,LINK,$$@)
-	$$(Q)mkdir -p $$(@D) && $$(CXX) $$(SAN) $$(LDFLAGS) -rdynamic -o $$@ $$^ -ldl -lpthread -lm
+	$$(Q)mkdir -p $$(@D) && $$(CXX) $$(SAN) $$(LDFLAGS) -rdynamic -o $$@ $$^ -ldl -lpthread -lm $(FUZZ_LIBS_$(1))
 EXTRA_TARGETS += $(O)/test/$(1)-fuzz
 $(O)/$(FUZZ_DIR)/$(1)-fuzz: $(call objs,$(FUZZ_DIR)/$(FUZZ_FLAVOUR_$(1)),$(FUZZ_$(1)))
 	$$(call say,LINK,$$@)
-	$$(Q)clang++ -g -fsanitize=fuzzer,$(FUZZ_SANITIZERS) -rdynamic -o $$@ $$^ -ldl -lpthread -lm
+	$$(Q)clang++ -g -fsanitize=fuzzer,$(FUZZ_SANITIZERS) -rdynamic -o $$@ $$^ -ldl -lpthread -lm $(FUZZ_LIBS_$(1))
 DEPS += $(patsubst %.o,%.d,$(call objs,$(FUZZ_DIR)/$(FUZZ_FLAVOUR_$(1)),$(FUZZ_$(1))))
 fuzz: $(O)/$(FUZZ_DIR)/$(1)-fuzz
 endef
