@@ -24,6 +24,8 @@ ENCODER_RATE = 0xF100       # of each encoder, 1/65536 counts in a cycle, signed
 ENCODER_INDEX = 0xF180      # counts between index pulses; 0: none
 ENCODER_INPUTS = 0xF1C0     # of encoder 0: bits that its status shows besides (15: quadrature error)
 INPUTS = 0xF200             # levels at the pins of each port
+CARD_FAULTS = 0xF300        # next so many transfers of smart-serial cards fail: at 0xF304 channels, 0xF308 their status
+CARD_STATUS, CARD_COUNT, CARD_LATE = 0xF30C, 0xF310, 0xF314  # status always; counter of the card's encoder; not done
 LEVELS = 0xF240             # what the pins of each port drive: value, and at LEVELS + 0x20 which of them do
 
 
@@ -86,7 +88,145 @@ def full_firmware():
     return modules, pins + [pin()] * (72 - len(pins))
 
 
-FIRMWARE = {'plain': (plain_firmware, 17), 'full': (full_firmware, 24)}
+def serial_firmware():
+    """A smart-serial port of four channels, absolute encoders, and serial channels."""
+    modules = [
+        module(2, 0, 1, 1, 0x0C00, 3, 0),
+        module(3, 0, 1, 3, 0x1000, 5, 0x1F),
+        module(193, 0, 1, 1, 0xC000, 6, 0x3C, 0x10),
+        module(8, 0, 1, 2, 0x5000, 4, 0x03),
+        module(24, 0, 1, 1, 0x5800, 4, 0x07),
+        module(25, 0, 1, 1, 0x6000, 3, 0x1F),
+    ]
+    pins = [pin(193, 0, code + kind, output) for code in range(1, 5) for kind, output in ((0, False), (0, True), (16, True))]
+    pins += [pin(8, unit, code, code < 3) for unit in range(2) for code in (1, 2, 3)]
+    pins += [pin(24, 0, code, code < 3) for code in (1, 2, 3)] + [pin(25, 0, code, code < 3) for code in (1, 2, 3)]
+    return modules, pins + [pin()] * (51 - len(pins))
+
+
+FIRMWARE = {'plain': (plain_firmware, 17), 'full': (full_firmware, 24), 'serial': (serial_firmware, 17)}
+
+
+class Card:
+    """A smart-serial card that describes itself; what goes out comes back in."""
+    PTOC, GTOC, RECORDS, UNIT, REVISION = 0x100, 0x140, 0x200, 0x20, 0x24
+
+    def __init__(self, name, serial):
+        self.name, self.serial = name, serial
+        self.memory = bytearray(0x1000)
+        self.locked = True
+        struct.pack_into('<I', self.memory, self.UNIT, 7)
+        self.memory[self.REVISION] = 14
+        self.free = self.RECORDS
+        self.outputs = [0, 0, 0]
+        table = [self.record(16, 1, 0x80, 0, 1, 0x40, '', 'Output'), self.record(10, 2, 0x80, 0, 100, 0x42, 'pct', 'SpinOut'),
+                 self.record(1, 7, 0x80, 0, 0, 0x44, '', 'SpinEna'), self.record(5, 0, 0x80, 0, 0, 0x45, '', 'pad'),
+                 self.record(16, 1, 0x00, 0, 1, 0x46, '', 'Input'), self.record(10, 3, 0x00, -10, 10, 0x48, 'V', 'Analog'),
+                 self.record(6, 0, 0x00, 0, 0, 0x49, '', 'pad'), self.record(8, 8, 0x00, 1, 4, 0x4A, '', 'Enc'),
+                 self.record(1, 7, 0x00, 0, 0, 0x4B, '', 'SpinIsOn')]
+        extra = [self.record(32, 4, 0x40, 0, 9, self.UNIT, '', 'NVUnitNumber'),
+                 self.record(8, 2, 0x00, 0, 255, self.REVISION, '', 'SwRevision'), self.mode(0, 'Standard')]
+        self.write_list(self.PTOC, table)
+        self.write_list(self.GTOC, table + extra)
+
+    def write_list(self, at, records):
+        struct.pack_into(f'<{len(records)}H', self.memory, at, *records)
+
+    def add(self, data):
+        at = self.free
+        self.memory[at:at + len(data)] = data
+        self.free += len(data)
+        return at
+
+    def record(self, bits, kind, direction, low, high, addr, unit, name):
+        return self.add(struct.pack('<BBBBffH', 0xA0, bits, kind, direction, low, high, addr) + unit.encode() + b'\0' +
+                        name.encode() + b'\0')
+
+    def mode(self, number, name):
+        return self.add(bytes((0xB0, number, 1, 0)) + name.encode() + b'\0')
+
+    def inputs(self, count):
+        out = self.outputs[0]
+        value = out & 0xFFFF | (out >> 16 & 0x3FF) << 16 | count << 32 | (out >> 26 & 1) << 40
+        return [value >> 32 * n & 0xFFFFFFFF for n in range(3)]
+
+
+class SerialPort:
+    """Smart-serial port 0: commands are done at once."""
+    COMMAND, DATA, CS, USER = 0xC000, 0xC100, 0xC200, 0xC300
+
+    def __init__(self, registers, cards):
+        self.r, self.cards = registers, cards
+        self.out = {}
+        self.running = False
+        self.local = {2: 0, 3: 43, 4: 16, 5: 64}
+        registers.on_write[self.COMMAND] = self.command
+        for channel in range(8):
+            registers.on_write[self.CS + 4 * channel] = lambda value, c=channel: self.out.__setitem__(('cs', c), value)
+            for n in range(3):
+                registers.on_write[self.USER + 0x100 * n + 4 * channel] = \
+                    lambda value, n=n, c=channel: self.out.__setitem__((n, c), value)
+
+    def put_user(self, channel, words):
+        for n, word in enumerate(words):
+            self.r.put(self.USER + 0x100 * n + 4 * channel, word)
+
+    def command(self, value):
+        if value == 0x80000000:
+            return
+        if value & 0xF000 == 0x2000:
+            self.r.put(self.DATA, self.local.get(value & 0xFFF, 0))
+        elif value & 0xF00 == 0xF00:
+            self.running = False
+            self.set_up(value & 0xFF)
+        elif value & 0xF000 == 0x1000:
+            self.do_it(value & 0xFF)
+        elif value & 0xF00 == 0x900:
+            self.running = True
+        elif value & 0xF00 == 0x800:
+            self.running = False
+        self.r.put(self.COMMAND, value if self.r.get(CARD_LATE) else 0)
+
+    def step(self):
+        self.r.take(CARD_LATE)
+        if not self.r.get(CARD_LATE):
+            self.r.put(self.COMMAND, 0)
+
+    def set_up(self, mask):
+        for channel in range(8):
+            card = self.cards.get(channel) if mask >> channel & 1 else None
+            self.put_user(channel, [card.serial, int.from_bytes(card.name.encode(), 'little'), card.PTOC | card.GTOC << 16]
+                          if card else [0, 0, 0])
+
+    def do_it(self, mask):
+        self.r.put(self.DATA, 0)
+        for channel, card in self.cards.items():
+            if not mask >> channel & 1:
+                continue
+            if self.running:
+                card.outputs = [self.out.get((n, channel), 0) for n in range(3)]
+                self.put_user(channel, card.inputs(self.r.get(CARD_COUNT) & 0xFF))
+                self.r.put(self.CS + 4 * channel, self.r.get(CARD_STATUS))
+            else:
+                self.single(channel, card)
+        if self.running and self.r.take(CARD_FAULTS):
+            failed = self.r.get(CARD_FAULTS + 4)
+            self.r.put(self.DATA, failed)
+            for channel in (c for c in self.cards if failed >> c & 1):
+                self.r.put(self.CS + 4 * channel, self.r.get(CARD_FAULTS + 8))
+
+    def single(self, channel, card):
+        what, user = self.out.get(('cs', channel), 0), self.out.get((0, channel), 0)
+        operation, addr = what >> 24, what & 0xFFFF
+        if operation == 0x4C:
+            self.put_user(channel, [card.memory[addr]])
+        elif operation == 0xEC:
+            card.locked = user == 0
+        elif 0x64 <= operation <= 0x67:
+            if addr == card.UNIT and card.locked:
+                return
+            size = 1 << (operation - 0x64)
+            card.memory[addr:addr + size] = user.to_bytes(8, 'little')[:size]
 
 
 class Registers:
@@ -236,6 +376,7 @@ class Board:
         self.ports = Ports(r, self.watchdog, len(pins) // port_width)
         self.stepgens = StepGens(r, 4)
         self.encoders = [Encoder(r, unit) for unit in range(2)]
+        self.card_port = None
         self.ticks = 0.0
 
     def write_identity(self, name, modules, pins, port_width):
@@ -264,6 +405,8 @@ class Board:
         self.ticks += ticks
         self.registers.put(0x3300, int(self.ticks) & 0xFFFF)
         self.ports.step()
+        if self.card_port:
+            self.card_port.step()
 
     def memory_of(self, space):
         return {0: self.registers.memory, 2: self.eeprom, 4: self.timers, 6: self.status, 7: self.info}.get(space)
@@ -310,6 +453,8 @@ def main():
     board.registers.put(0x6300, 42)     # ddsize of the DPLL
     board.registers.put(0x7800, 21)     # highest input of the input multiplexer, and of the inputs
     board.registers.put(0x8000, 9)
+    if firmware == 'serial':
+        board.card_port = SerialPort(board.registers, {0: Card('7I76', 0x1234), 2: Card('7I73', 0xABCD)})
     sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     sock.bind((ip, PORT))
     print('ready', flush=True)

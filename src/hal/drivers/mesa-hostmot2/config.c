@@ -43,24 +43,20 @@ static int parse_number(struct hm2 *hm2, const char *word, const char *text, int
     return 0;
 }
 
-/* sserial_port_P=MODES: the first one makes the ports counted. */
+/* sserial_port_P=MODES, of this port alone. */
 static int parse_sserial(struct hm2 *hm2, const char *word, unsigned port, const char *modes)
 {
     struct hm2_config *c = &hm2->config;
     unsigned i, n = 0;
-    bool used = false;
     if(port >= HM2_SSERIAL_PORTS) {
         HM2_ERR(hm2, "invalid token in config string: \"%s\": ports are 0 to %d\n", word, HM2_SSERIAL_PORTS - 1);
         return -EINVAL;
     }
-    if(c->num_sserials < 0) c->num_sserials = 0;
     for(i = 0; modes[i] && n < sizeof c->sserial_mode[port]; i++) {
         char m = (char)tolower((unsigned char)modes[i]);
         if(!isdigit((unsigned char)m) && m != 'x') continue;
         c->sserial_mode[port][n++] = m;
-        if(m != 'x') used = true;
     }
-    if(used && c->num_sserials <= (int)port) c->num_sserials = (int)port + 1;
     return 0;
 }
 
@@ -141,7 +137,6 @@ int hm2_config_parse(struct hm2 *hm2, const char *text)
     char word[MAX_WORD + 1];
     int i;
     for(i = 0; i < HM2_COUNTS; i++) c->num[i] = -1;
-    c->num_sserials = -1;
     c->stepgen_width = 2;
     memset(c->sserial_mode, '0', sizeof c->sserial_mode);
     for(;;) {

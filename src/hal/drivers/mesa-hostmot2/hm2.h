@@ -63,7 +63,6 @@ struct hm2_config {
     char firmware[HM2_FORMAT_LEN + 1];         /* empty: none given */
     int num[HM2_COUNTS];                       /* -1: all that the firmware has */
     int stepgen_width;                         /* output pins of each stepgen */
-    int num_sserials;                          /* ports; -1: all */
     char sserial_mode[HM2_SSERIAL_PORTS][8];   /* of each channel: '0'..'9', or 'x' */
     char ssi_format[HM2_ABSENC_CHANNELS][HM2_FORMAT_LEN + 1]; /* empty: not used */
     char biss_format[HM2_ABSENC_CHANNELS][HM2_FORMAT_LEN + 1];
@@ -130,8 +129,7 @@ struct hm2_function_ops {
 
 extern const struct hm2_function_ops hm2_ioport, hm2_watchdog, hm2_pwmgen, hm2_oneshot, hm2_periodm, hm2_rcpwmgen,
     hm2_inmux, hm2_inm, hm2_xy2mod, hm2_tppwm, hm2_stepgen, hm2_encoder, hm2_resolver, hm2_dpll, hm2_led, hm2_ssr,
-        hm2_outm,
-    hm2_raw;
+    hm2_outm, hm2_absenc, hm2_sserial, hm2_raw;
 
 #define HM2_FUNCTIONS 32
 
@@ -230,6 +228,8 @@ int hm2_modules_read(struct hm2 *hm2, bool debug);
 int hm2_pins_read(struct hm2 *hm2, bool debug);
 /* Gives pins to the functions that are in use. */
 void hm2_pins_assign(struct hm2 *hm2);
+/* The pins of a module work at once, for finding out what hangs on them. */
+void hm2_pins_enable_now(struct hm2 *hm2, int gtag);
 void hm2_pins_print(struct hm2 *hm2);
 int hm2_pins_export(struct hm2 *hm2);
 
@@ -241,6 +241,9 @@ void hm2_ioport_read_gpio(struct hm2 *hm2);
 void hm2_ioport_write_gpio(struct hm2 *hm2);
 /* [any] Is the watchdog's bit set and the user has not answered yet? false without a watchdog. */
 bool hm2_watchdog_bitten(struct hm2 *hm2);
+/* [any] Are there absolute encoders? [servo] Starts their transfers that no timer starts. */
+bool hm2_absenc_used(struct hm2 *hm2);
+void hm2_absenc_trigger(struct hm2 *hm2);
 /* [servo] Prints the state of every function. */
 void hm2_print_state(struct hm2 *hm2);
 /* [init] Bites as soon as possible. */

@@ -33,11 +33,20 @@ RTAPI_MP_INT(debug_pin_descriptors, "nonzero prints the pin descriptors of each 
 static int debug_modules;
 RTAPI_MP_INT(debug_modules, "nonzero prints the state of the modules in use");
 
+int hm2_use_serial_numbers;
+static int use_serial_numbers;
+RTAPI_MP_INT(use_serial_numbers, "nonzero names smart-serial cards by their serial numbers");
+int hm2_sserial_baudrate = -1;
+static int sserial_baudrate = -1;
+RTAPI_MP_INT(sserial_baudrate, "bits per second of smart-serial channels; -1 leaves them");
+
 /* In the order in which settings are written; raw, which is no module of the firmware, is the last. */
 static const struct hm2_function_ops *const functions[] = {
     &hm2_ioport, &hm2_watchdog, &hm2_pwmgen, &hm2_oneshot, &hm2_periodm, &hm2_rcpwmgen, &hm2_inmux, &hm2_inm,
         &hm2_xy2mod,
-    &hm2_tppwm, &hm2_stepgen, &hm2_encoder, &hm2_resolver, &hm2_dpll, &hm2_led, &hm2_ssr, &hm2_outm, &hm2_raw,
+    &hm2_tppwm, &hm2_stepgen, &hm2_sserial, &hm2_encoder, &hm2_absenc, &hm2_resolver, &hm2_dpll, &hm2_led, &hm2_ssr,
+        &hm2_outm,
+        &hm2_raw,
 };
 HAL_STATIC_ASSERT(sizeof functions / sizeof functions[0] <= HM2_FUNCTIONS, "room for the states of all functions");
 
@@ -193,6 +202,13 @@ static void cycle_write_gpio(void *arg, long period)
     if(!in_error(arg)) hm2_ioport_write_gpio(arg);
 }
 
+/* HAL function <board>.trigger-encoders. */
+static void cycle_trigger(void *arg, long period)
+{
+    (void)period;
+    if(!in_error(arg)) hm2_absenc_trigger(arg);
+}
+
 /* ---- Registration --------------------------------------------------------- */
 
 static bool printable(const char *text)
@@ -294,7 +310,8 @@ static int export_functions(struct hm2 *hm2)
         if(list[i].threadsafe && !hm2->io->threadsafe) continue;
         COMP_TRY(hal_export_functf(list[i].funct, hm2, 1, 0, hm2->io->comp_id, "%s.%s", hm2->io->name, list[i].name));
     }
-    return 0;
+    if(!hm2_absenc_used(hm2) || hm2->config.num[HM2_NUM_DPLLS] != 0) return 0;
+    return hal_export_functf(cycle_trigger, hm2, 1, 0, hm2->io->comp_id, "%s.trigger-encoders", hm2->io->name);
 }
 
 static int export_io_error(struct hm2_llio *io)
@@ -382,6 +399,8 @@ EXPORT_SYMBOL(hm2_unregister);
 int rtapi_app_main(void)
 {
     rtapi_print("hm2: loading Mesa HostMot2 driver version " DRIVER_VERSION "\n");
+    hm2_use_serial_numbers = use_serial_numbers;
+    hm2_sserial_baudrate = sserial_baudrate;
     comp_id = hal_init("hostmot2");
     if(comp_id < 0) return comp_id;
     return hal_ready(comp_id);

@@ -73,13 +73,13 @@ static void prepare(struct hm2 *hm2, void *state, long period)
 /* A pin's bits of the registers; invert stays as it was while the pin is an input. */
 static void settings_of_pin(struct hm2_pin *pin, rtapi_u32 bit, rtapi_u32 now[REGISTERS])
 {
-    if(pin->owner == HM2_GTAG_IOPORT) pin->output = hal_get_bool(pin->is_output);
+    if(pin->owner == HM2_GTAG_IOPORT) pin->output = pin->is_output && hal_get_bool(pin->is_output);
     else now[ALT_SOURCE] |= bit;
     if(!pin->output) return;
     now[DDR] |= bit;
-    if(hal_get_bool(pin->opendrain)) now[OPEN_DRAIN] |= bit;
+    if(pin->opendrain && hal_get_bool(pin->opendrain)) now[OPEN_DRAIN] |= bit;
     now[INVERT] &= ~bit;
-    if(hal_get_bool(pin->invert)) now[INVERT] |= bit;
+    if(pin->invert && hal_get_bool(pin->invert)) now[INVERT] |= bit;
 }
 
 static void write_port(struct hm2 *hm2, struct ioport *s, int p, bool force)

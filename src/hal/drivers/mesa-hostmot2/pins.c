@@ -157,10 +157,11 @@ static const struct {
 static const char *const inm_name[] = {"in0,enca0", "in1,encb0", "in2,enca1", "in3,encb1",
                                        "in4,enca2", "in5,encb2", "in6,enca3", "in7,encb3"};
 
-static void two_way_name(const struct hm2_pin *pin, char *name, size_t size)
+static void two_way_name(const struct hm2_pin *pin, bool hal, char *name, size_t size)
 {
     int code = pin->sec_pin & 0x7F;
     bool out = pin->sec_pin & HM2_PIN_OUTPUT;
+    if(hal && pin->sec_tag != HM2_GTAG_SMARTSERIAL && pin->sec_tag != HM2_GTAG_SMARTSERIALB) return;
     if(pin->sec_tag == HM2_GTAG_INMUX) {
         if(out && code >= 1 && code <= 5) snprintf(name, size, "addr%d", code - 1);
         else if(!out && code == 1) snprintf(name, size, "muxdata");
@@ -173,7 +174,7 @@ static void two_way_name(const struct hm2_pin *pin, char *name, size_t size)
         if(!out && code < 0x10) snprintf(name, size, "rx%d", channel);
         else if(out && code < 0x10) snprintf(name, size, "tx%d", channel);
         else if(out && code < 0x20) snprintf(name, size, "txen%d", channel);
-        else if(out && code < 0x30) snprintf(name, size, "ntxen%d", channel);
+        else if(out && code < 0x30 && !hal) snprintf(name, size, "ntxen%d", channel);
     }
 }
 
@@ -191,9 +192,8 @@ static void pin_name(const struct hm2_pin *pin, bool hal, char *name, size_t siz
 #pragma GCC diagnostic pop
         return;
     }
-    if(hal) return;
-    two_way_name(pin, name, size);
-    if(!name[0]) snprintf(name, size, "unknown-pin-%d", code);
+    two_way_name(pin, hal, name, size);
+    if(!name[0] && !hal) snprintf(name, size, "unknown-pin-%d", code);
 }
 
 /* ---- Descriptors ---------------------------------------------------------- */
@@ -270,6 +270,19 @@ void hm2_pins_assign(struct hm2 *hm2)
         if(starts_at_once(pin->sec_tag)) pin->output = true;
         else pin->start_output = true;
     }
+}
+
+void hm2_pins_enable_now(struct hm2 *hm2, int gtag)
+{
+    int i;
+    for(i = 0; i < hm2->pins; i++) {
+        struct hm2_pin *pin = &hm2->pin[i];
+        if(pin->sec_tag != gtag) continue;
+        pin->owner = (rtapi_u8)gtag;
+        pin->output = pin->sec_pin & HM2_PIN_OUTPUT;
+    }
+    void *ports = hm2_state(hm2, &hm2_ioport);
+    if(ports) hm2_ioport.write(hm2, ports, true);
 }
 
 /* ---- Connectors ----------------------------------------------------------- */
