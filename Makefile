@@ -115,8 +115,8 @@ $(T)/bin/$(1): $(2)
 endef
 
 # Each rules.mk may also add to: PUBLIC_HEADERS (copied to include/), EXTRA_TARGETS,
-# BENCHES (targets of `make bench`), INSTALL_HOOKS (targets run by `make install`).
-RULES := $(sort $(shell find src -name rules.mk))
+# BENCHES (targets of `make bench`), MANUAL_PAGES (.comp and .adoc), INSTALL_HOOKS (targets run by `make install`).
+RULES := $(sort $(shell find src -name rules.mk)) docs/man/rules.mk
 include $(RULES)
 include src/hal/test/fuzz.mk
 

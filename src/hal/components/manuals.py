@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Manual pages and the list of the components.
+"""Manual pages, and the list of the components.
 
 manuals.py man FOLDER FILE...   a page of section 9 (1 for programs) for each .comp and
-                                .adoc file, in FOLDER/man9 and FOLDER/man1
+                                .adoc file, in FOLDER/man9 and FOLDER/man1, and a
+                                reference to it for every other name of its NAME section
 manuals.py list FILE...         docs/components.md, on standard output
 
 Descriptions are the components' own. Each component stands in one group below; a
@@ -55,7 +56,7 @@ GROUPS = {
     "Devices on Modbus and USB": "mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd pmx485 shuttle xhc-hb04",
 }
 TITLE = re.compile(r"^= \S+\((\d)\)$", re.M)
-SUMMARY = re.compile(r"^== NAME\s+(\S+) - (.*)$", re.M)
+NAMES = re.compile(r"^== NAME\s+([^=]+?) - (.*)$", re.M)
 
 
 def load(path: Path) -> Component:
@@ -77,11 +78,20 @@ def write_pages(folder: Path, files: list[Path]) -> None:
         target = folder / f"man{section}" / f"{path.stem}.{section}"
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(page)
+        for name in other_names(path):
+            target.with_name(f"{name}.{section}").write_text(f".so man{section}/{target.name}\n")
+
+
+def other_names(path: Path) -> list[str]:
+    """What else than the file is named the page is about: the programs of a family."""
+    if path.suffix != ".adoc":
+        return []
+    return [name for name in re.split(r"[,\s]+", NAMES.search(path.read_text()).group(1)) if name != path.stem]
 
 
 def summary(path: Path) -> str:
     if path.suffix == ".adoc":
-        text = SUMMARY.search(path.read_text()).group(2)
+        text = NAMES.search(path.read_text()).group(2)
     else:
         text = (load(path).doc or "").strip().split("\n")[0]
     return text[:1].upper() + text[1:]

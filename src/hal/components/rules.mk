@@ -30,18 +30,11 @@ COMP_C_PARTS :=
 COMP_C := $(filter-out $(COMP_C_PARTS),$(notdir $(wildcard $(COMP_DIR)/*.c)))
 $(foreach c,$(COMP_C),$(eval $(call rtmodule,$(basename $(c)),$(COMP_DIR)/$(c))))
 
-# Manual pages, and docs/components.md (kept in the tree: tests/docs checks it).
+# Manual pages (docs/man/rules.mk makes them), and docs/components.md (kept in the tree: tests/docs checks it).
 COMP_PAGES := $(sort $(COMP_FILES) $(wildcard $(COMP_DIR)/man/*.adoc))
-COMP_MANUALS := PYTHONPATH=src/hal/utils $(PYTHON) -B $(COMP_DIR)/manuals.py
-EXTRA_TARGETS += $(T)/docs/build/man/.components
-$(T)/docs/build/man/.components: $(COMP_PAGES) $(COMP_DIR)/manuals.py $(HALCOMPILE_SOURCES)
-	$(call say,MAN,$(words $(COMP_PAGES)) pages)
-	$(Q)mkdir -p $(@D) && $(COMP_MANUALS) man $(@D) $(COMP_PAGES) && touch $@
+MANUALS := PYTHONPATH=src/hal/utils $(PYTHON) -B $(COMP_DIR)/manuals.py
+MANUAL_PAGES += $(COMP_PAGES)
 .PHONY: component-list
 component-list: $(COMP_PAGES)
 	$(call say,LIST,docs/components.md)
-	$(Q)$(COMP_MANUALS) list $(COMP_PAGES) > docs/components.md
-INSTALL_HOOKS += install-component-manuals
-.PHONY: install-component-manuals
-install-component-manuals: $(T)/docs/build/man/.components
-	for s in 1 9; do install -d $(DESTDIR)$(mandir)/man$$s && install -m 644 $(T)/docs/build/man/man$$s/*.$$s $(DESTDIR)$(mandir)/man$$s; done
+	$(Q)$(MANUALS) list $(COMP_PAGES) > docs/components.md

@@ -12,9 +12,9 @@ pages="$folder/conv/*.comp src/hal/components/*.comp src/hal/components/man/*.ad
 /usr/bin/python3 -B src/hal/components/manuals.py list $pages > "$folder/list"
 diff docs/components.md "$folder/list" && echo "list is current"
 /usr/bin/python3 -B src/hal/components/manuals.py man "$folder" $pages
-for page in "$folder"/man?/*; do
-    if command -v groff > /dev/null; then groff -man -Tutf8 -ww -z "$page" 2>&1; fi
-done
+if command -v groff > /dev/null; then
+    (cd "$folder" && groff -man -Tutf8 -ww -z man?/* 2>&1)
+fi
 # Every module has a page.
 for source in src/hal/components/*.c src/hal/components/*.comp; do
     name=$(basename "$source"); name=${name%.*}
