@@ -43,3 +43,10 @@ bench-axis-soak: all
 	rm -f $(O)/axis-soak.txt
 	SOAK_HOURS=$(or $(HOURS),10) SOAK_REPORT=$(abspath $(O))/axis-soak.txt KERF_INSTANCE=axissoak scripts/runtests -p --timeout 36000 tests/axis/memory-does-not-grow; \
 	    status=$$?; cat $(O)/axis-soak.txt; exit $$status
+
+# Every tool that has a window or lives long for HOURS of its own time (MINUTES of wall time at most; TOOLS=a,b: only these), what each weighs in
+# objects/tools-soak.txt; ends with status 1 when one grows. A day of all takes hours of wall time.
+.PHONY: bench-tools-soak
+bench-tools-soak: all
+	bash -c '. scripts/rip-environment && HOURS=$(or $(HOURS),24) MINUTES=$(or $(MINUTES),600) TOOLS="$(TOOLS)" KERF_INSTANCE=toolsoak \
+	    exec /usr/bin/python3 src/emc/usr_intf/bench/tools_soak.py'

@@ -99,7 +99,8 @@ class Window:
     """The small main window hides by itself; a request opens the dialog."""
 
     def __init__(self, root, exchange):
-        self.root, self.exchange, self.dialog, self.shown_s = root, exchange, None, 0.0
+        self.root, self.exchange, self.shown_s = root, exchange, 0.0
+        self.kept = self.dialog = None      # the dialog; the same while it is shown
         style = self.style = tkstyle.apply(root)
         root.title(_("AXIS Manual Toolchanger"))
         root.geometry("-60-60")
@@ -116,10 +117,10 @@ class Window:
         if self.shown_s >= WITHDRAW_S and self.root.state() == "normal":
             self.root.withdraw()
 
-    def ask(self):
-        self.close()
+    def make_dialog(self):
+        """Made once: each window that comes and goes leaves memory in Tk, and tools are changed for months."""
         px = self.style.px
-        dialog = self.dialog = tk.Toplevel(self.root, class_="Dialog")
+        dialog = tk.Toplevel(self.root, class_="Dialog")
         dialog.withdraw()
         dialog.title(_(TITLE))
         dialog.attributes("-topmost", True)
@@ -129,14 +130,21 @@ class Window:
             ttk.Label(box, image=ICON).grid(row=0, column=0, sticky="n", padx=(0, px(16)))
         except tk.TclError:         # a Tk without icons
             pass
-        self.text = ttk.Label(box, text=request_text(self.exchange.pins["number"]), justify="left", wraplength=px(480))
+        self.text = ttk.Label(box, justify="left", wraplength=px(480))
         self.text.grid(row=0, column=1, sticky="w")
         self.button = ttk.Button(box, text=_("Continue"), command=self.confirm)
         self.button.grid(row=1, column=0, columnspan=2, pady=(px(20), 0), ipadx=px(12), ipady=px(8))
-        self.button.focus_set()
         dialog.bind("<Return>", lambda event: self.confirm())
         dialog.bind("<KP_Enter>", lambda event: self.confirm())
         dialog.protocol("WM_DELETE_WINDOW", lambda: None)
+        return dialog
+
+    def ask(self):
+        self.close()
+        self.kept = self.kept or self.make_dialog()
+        dialog = self.dialog = self.kept
+        self.text["text"] = request_text(self.exchange.pins["number"])
+        self.button.focus_set()
         dialog.update_idletasks()
         width, height = dialog.winfo_reqwidth(), dialog.winfo_reqheight()
         dialog.geometry(f"+{(dialog.winfo_screenwidth() - width) // 2}+{(dialog.winfo_screenheight() - height) // 2}")
@@ -145,7 +153,7 @@ class Window:
 
     def close(self):
         if self.dialog:
-            self.dialog.destroy()
+            self.dialog.withdraw()
             self.dialog = None
 
     def confirm(self):
