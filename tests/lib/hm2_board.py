@@ -97,6 +97,7 @@ def serial_firmware():
         module(8, 0, 1, 2, 0x5000, 4, 0x03),
         module(24, 0, 1, 1, 0x5800, 4, 0x07),
         module(25, 0, 1, 1, 0x6000, 3, 0x1F),
+        module(14, 0, 1, 1, 0x6800, 3, 0x7, 0x10),
     ]
     pins = [pin(193, 0, code + kind, output) for code in range(1, 5) for kind, output in ((0, False), (0, True), (16, True))]
     pins += [pin(8, unit, code, code < 3) for unit in range(2) for code in (1, 2, 3)]
@@ -104,7 +105,23 @@ def serial_firmware():
     return modules, pins + [pin()] * (51 - len(pins))
 
 
-FIRMWARE = {'plain': (plain_firmware, 17), 'full': (full_firmware, 24), 'serial': (serial_firmware, 17)}
+def uart_firmware():
+    """Channels for bytes and for frames."""
+    modules = [
+        module(2, 0, 1, 1, 0x0C00, 3, 0),
+        module(3, 0, 1, 3, 0x1000, 5, 0x1F),
+        module(9, 0, 1, 2, 0x7000, 4, 0xF, 0x10),
+        module(10, 0, 1, 2, 0x7800, 4, 0xF, 0x10),
+        module(27, 3, 1, 1, 0x8000, 4, 0xF),
+        module(28, 3, 1, 1, 0x8800, 4, 0xF),
+    ]
+    pins = [pin(9, 1, 1, True), pin(9, 1, 2, True), pin(10, 1, 1), pin(27, 0, 1, True), pin(28, 0, 1)]
+    return modules, pins + [pin()] * (51 - len(pins))
+
+
+# Maker, pins of a port, the second stride of instances.
+FIRMWARE = {'plain': (plain_firmware, 17, 0x40), 'full': (full_firmware, 24, 0x40),
+            'serial': (serial_firmware, 17, 0x40), 'uart': (uart_firmware, 17, 0x10)}
 
 
 class Card:
@@ -365,26 +382,27 @@ class Encoder:
 class Board:
     NAME_LEN = 16
 
-    def __init__(self, name, firmware, port_width=17):
+    def __init__(self, name, firmware, port_width, stride):
         modules, pins = firmware
         self.registers = r = Registers()
         self.info = name.encode().ljust(self.NAME_LEN, b'\0') + bytes(48)
         self.timers, self.status = bytearray(64), bytearray(64)
         self.eeprom = b'\0\0' + bytes(reversed(bytes.fromhex('00601b123456'))) + bytes(120)
-        self.write_identity(name, modules, pins, port_width)
+        self.write_identity(name, modules, pins, port_width, stride)
         self.watchdog = Watchdog(r)
         self.ports = Ports(r, self.watchdog, len(pins) // port_width)
+        tags = [m[0] for m in modules]
         self.stepgens = StepGens(r, 4)
-        self.encoders = [Encoder(r, unit) for unit in range(2)]
+        self.encoders = [Encoder(r, unit) for unit in range(2) if {4, 12} & set(tags)]
         self.card_port = None
         self.ticks = 0.0
 
-    def write_identity(self, name, modules, pins, port_width):
+    def write_identity(self, name, modules, pins, port_width, stride):
         r, count = self.registers, len(pins)
         r.put(0x100, 0x55AACAFE)
         r.memory[0x104:0x10C] = b'HOSTMOT2'
         r.put(0x10C, IDROM)
-        words = [3, 0x40, 0x200, 0, 0, 9, 144, count // port_width, count, port_width, CLOCK_LOW, CLOCK_HIGH, 4, 0x40,
+        words = [3, 0x40, 0x200, 0, 0, 9, 144, count // port_width, count, port_width, CLOCK_LOW, CLOCK_HIGH, 4, stride,
                  0x100, 4]
         for i, word in enumerate(words):
             r.put(IDROM + 4 * i, word)
@@ -448,11 +466,12 @@ class Board:
 
 def main():
     ip, name, firmware = (sys.argv[1:] + ['7I96S', 'plain'][len(sys.argv) - 2:])[:3]
-    make, port_width = FIRMWARE[firmware]
-    board = Board(name, make(), port_width)
-    board.registers.put(0x6300, 42)     # ddsize of the DPLL
-    board.registers.put(0x7800, 21)     # highest input of the input multiplexer, and of the inputs
-    board.registers.put(0x8000, 9)
+    make, port_width, stride = FIRMWARE[firmware]
+    board = Board(name, make(), port_width, stride)
+    if firmware == 'full':
+        board.registers.put(0x6300, 42)     # ddsize of the DPLL
+        board.registers.put(0x7800, 21)     # highest input of the input multiplexer, and of the inputs
+        board.registers.put(0x8000, 9)
     if firmware == 'serial':
         board.card_port = SerialPort(board.registers, {0: Card('7I76', 0x1234), 2: Card('7I73', 0xABCD)})
     sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

@@ -129,7 +129,7 @@ struct hm2_function_ops {
 
 extern const struct hm2_function_ops hm2_ioport, hm2_watchdog, hm2_pwmgen, hm2_oneshot, hm2_periodm, hm2_rcpwmgen,
     hm2_inmux, hm2_inm, hm2_xy2mod, hm2_tppwm, hm2_stepgen, hm2_encoder, hm2_resolver, hm2_dpll, hm2_led, hm2_ssr,
-    hm2_outm, hm2_absenc, hm2_sserial, hm2_raw;
+    hm2_outm, hm2_absenc, hm2_sserial, hm2_bspi, hm2_uart, hm2_pktuart, hm2_raw;
 
 #define HM2_FUNCTIONS 32
 

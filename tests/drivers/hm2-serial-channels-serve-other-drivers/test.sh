@@ -1,0 +1,39 @@
+#!/bin/bash
+# The functions of hostmot2-serial.h: another driver sets channels up and finds its data in the board's registers.
+rtlib=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
+trap 'rm -f kerf_client.c "$rtlib/kerf_client.so"' EXIT
+cp client.c kerf_client.c
+halcompile --install kerf_client.c >&2 || exit 1
+echo "buffered SPI"
+../../lib/with-hm2-board -f serial -c enable_raw <<'END'
+stop
+loadrt kerf_client which=bspi board=%
+setp client.out 0xCAFE
+start
+wait 0.01
+peek 0x680C
+peek 0x6814
+peek 0x6900
+poke 0x6800 4321
+wait 0.002
+getp client.echo
+END
+echo "serial channels"
+../../lib/with-hm2-board -f uart <<'END'
+stop
+loadrt kerf_client which=uart board=%
+start
+say bit rate, mode, four bytes and one
+peek 0x7210
+peek 0x7310
+peek 0x7A10
+peek 0x701C
+peek 0x7010
+say frames: bit rates, modes, last word and count
+peek 0x8200
+peek 0x8300
+peek 0x8A00
+peek 0x8B00
+peek 0x8000
+peek 0x8100
+END
