@@ -276,7 +276,7 @@ class Composer:
             solid, arrays = shapes.cylinder_faces(at, diameter / 2, 4 * diameter), shapes.cylinder(at, diameter / 2, 4 * diameter)
             name = "tool_diffuse"
         else:
-            way = (1, 0, 0) if self.s.lathe else (0, 0, 1)
+            way = (0, 0, 1) if not self.s.lathe else (-1, 0, 0) if abs(stat.rotation_xy - 180) < 1e-6 else (1, 0, 0)
             radius, height = CONE_RADIUS * size, CONE_HEIGHT * size
             solid, arrays = shapes.cone_faces(at, radius, height, way), shapes.cone(at, radius, height, 1, way)
             name = "cone"

@@ -138,7 +138,17 @@ void Raster::thin_line(double x0, double y0, double x1, double y1, int steps, Rg
     constexpr double ONE = 65536;
     int64_t x = int64_t(x0 * ONE), y = int64_t(y0 * ONE);
     const int64_t sx = int64_t((x1 - x0) * ONE) / steps, sy = int64_t((y1 - y0) * ONE) / steps;
-    for (int i = 0; i <= steps; i++, x += sx, y += sy) blend(int(x >> 16), int(y >> 16), colour);
+    if (colour.a == 255) {
+        for (int i = 0; i <= steps; i++, x += sx, y += sy) blend(int(x >> 16), int(y >> 16), colour);
+        return;
+    }
+    for (int i = 0; i <= steps; i++, x += sx, y += sy) { // each pixel of a chain once
+        const int u = int(x >> 16), v = int(y >> 16);
+        if (u == last_x_ && v == last_y_) continue;
+        last_x_ = u;
+        last_y_ = v;
+        blend(u, v, colour);
+    }
 }
 
 void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matrix &matrix, size_t first, size_t last,
@@ -146,6 +156,7 @@ void Raster::draw(const Path &path, const std::vector<Rgba> &palette, const Matr
     last = std::min(last, path.count);
     if (first >= last) return;
     Window window(w_, h_);
+    last_x_ = last_y_ = -1;
     Clip from = project(matrix, path.xyz + path.vertex(first) * path.stride);
     for (size_t i = first + 1; i < last; i++) {
         Clip to = project(matrix, path.xyz + path.vertex(i) * path.stride);

@@ -59,6 +59,7 @@ private:
     void blend(int x, int y, Rgba colour);
     int w_, h_;
     std::vector<uint8_t> rgb_;
+    int last_x_ = -1, last_y_ = -1; // pixel of a translucent chain that was drawn last
 };
 
 } // namespace kerf
