@@ -37,6 +37,10 @@ from .waits import Waits
 from .window import WindowPart
 
 OFTEN = ("redraw_soon", "redraw", "redraw_dro")      # not worth a note
+STARTS = {"task_run", "task_run_line", "task_step", "task_resume", "task_pauseresume", "task_reverse", "task_forward", "send_mdi",
+          "mdi_history_double_butt_1", "home_all_joints", "home_joint", "home_joint_number", "spindle", "spindle_forward_toggle",
+          "spindle_backward_toggle", "spindle_increase", "mist", "flood", "mist_toggle", "flood_toggle", "brake_off", "brake",
+          "set_axis_offset", "toggle_override_limits"}      # what starts something: not long after it was asked for
 STATUS_TRIES = 9
 CRASHED = 70             # exit status of a screen that an exception ended
 MAXVEL_QUIET_S = 1.0     # after an own change the slider does not follow the status
@@ -92,6 +96,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.loader = program.Loader(self.settings, self.former_folder())
         self.waits = Waits(self.prefs, ini_path, self.hal_value)
         self.estimate = Estimate(ini_path, self.waits)
+        self.awake_at, self.late = clock.now(), False
         self.timed = False       # a program ran at the last look
         self.open_directory = self.settings.find("DISPLAY", "PROGRAM_PREFIX", "programs")
         self.user = {}
@@ -129,6 +134,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         def call(*args):
             if name not in OFTEN:
                 self.recorder.note(name, *args)
+            if name in STARTS and self.is_late():
+                self.notifications.add("info", self.translate("Not done, the screen did not get on when it was asked for: %s") % name)
+                return ""
             try:
                 result = function(*args)
                 return "" if result is None else result
@@ -602,7 +610,6 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.make_panel()
         self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)
         self.logging.start()
-        self.jogger.guard.start()
         self.activate_ja_widget(self.settings.coordinates[0])
         self.show_title()
         initial = first_file or os.environ.get("AXIS_OPEN_FILE") or self.settings.find("DISPLAY", "OPEN_FILE")
@@ -671,11 +678,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.root.destroy()
 
     def close(self):
-        self.jogger.guard.over = True
         self.logger.stop()
-        for thread in (self.logging, self.jogger.guard):  # one that sleeps at Python's end would end it by abort()
-            if thread.is_alive():
-                thread.join(1.0)
+        if self.logging.is_alive():      # one that sleeps at Python's end would end it by abort()
+            self.logging.join(1.0)
         self.estimate.cancel(wait=True)
         self.loader.close()
         self.recorder.close()

@@ -57,6 +57,8 @@ def make(app):
             if s.task_state == linuxcnc.STATE_ESTOP:
                 return
             if s.task_state == linuxcnc.STATE_ESTOP_RESET or s.task_state == linuxcnc.STATE_OFF:
+                if app.is_late():
+                    return
                 c.state(linuxcnc.STATE_ON)
                 c.wait_complete()
                 if app.settings.flag("DISPLAY", "HOMING_PROMPT") and not app.all_homed():

@@ -21,6 +21,7 @@ POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("
 STATES = {linuxcnc.STATE_ESTOP: N_("ESTOP"), linuxcnc.STATE_ON: N_("ON"), linuxcnc.STATE_OFF: N_("OFF")}
 ERROR_POLL_MS = 200
 OPTIONS = ("block_delete", "optional_stop")
+LATE_S = 1.0             # keys and clicks older than that start nothing
 STALE_S = 0.3            # offsets must rest so long before the preview is read anew
 
 
@@ -50,6 +51,21 @@ class FollowPart:
         if alive:
             self.root.after(self.settings.cycle_ms, self.update)
 
+    def gets_on(self):
+        """Called in each update cycle. After a longer rest everything that waits in the queue of events is late."""
+        now = clock.now()
+        if now - self.awake_at > self.longest_rest():
+            self.late = True
+            self.root.after_idle(setattr, self, "late", False)
+        self.awake_at = now
+
+    def is_late(self):
+        """Is what the operator asked for now old, because the screen did not get on?"""
+        return self.late or clock.now() - self.awake_at > self.longest_rest()
+
+    def longest_rest(self):
+        return max(LATE_S, 3 * self.settings.cycle_ms / 1000)
+
     def failed_once(self, error):
         """As failed(), but what comes in each cycle is told once."""
         if repr(error) not in self.told_faults:
@@ -60,7 +76,8 @@ class FollowPart:
         """Shows the present status; False when the controller is gone and the screen ends."""
         try:
             self.stat.poll()
-            self.jogger.guard.beat()
+            self.gets_on()
+            self.jogger.beat()
             self.follow_status()
             self.preview.look()
         except linuxcnc.error as e:

@@ -2,12 +2,11 @@
 """Jogging: which joint or axis, how fast, and that it stops. No widgets here.
 
 One jog has one owner (a key or a button). It ends when the owner lets go, when the window
-loses the focus, when the Manual tab is left, and when the machine stops answering. A guard, a
-thread of its own, ends it when the screen itself does not get on.
+loses the focus, when the Manual tab is left, and when the machine stops answering. While it is held the
+screen sends heartbeats: task ends the jog of a screen that does not get on (docs/nml.md).
 """
 
 import math
-import threading
 
 import linuxcnc
 from kerf import clock
@@ -32,33 +31,7 @@ def position(value, top):
     return round(-200 / (math.log(value / (60 * top)) - 1)) / 200
 
 
-GUARD_S = 0.05
-STALLED_S = 0.25         # a screen that did not get on for so long can not see that a key is let go
-
-
-class Guard(threading.Thread):
-    """Stops the jogs of a screen that stalls; beat() is called in each update cycle."""
-
-    def __init__(self):
-        super().__init__(daemon=True)
-        self.command = linuxcnc.command()
-        self.jogs = {}           # owner -> (joint mode, number), a copy of the jogger's
-        self.beaten = clock.now()
-        self.over = False
-
-    def beat(self):
-        self.beaten = clock.now()
-
-    def run(self):
-        while not self.over:
-            clock.sleep(GUARD_S)
-            jogs = list(self.jogs.values())
-            if jogs and clock.now() - self.beaten > STALLED_S:
-                for what in jogs:
-                    try:
-                        self.command.jog(linuxcnc.JOG_STOP, *what)
-                    except linuxcnc.error:
-                        pass     # the controller is gone: so is the motion
+BEAT_S = 0.05            # between two heartbeats of a jog; task waits five times as long, then it stops the jog
 
 
 class Jogger:
@@ -66,8 +39,8 @@ class Jogger:
 
     def __init__(self, app):
         self.app = app
-        self.guard = Guard()
-        self.running = self.guard.jogs   # owner -> (joint mode, number) of a continuous jog
+        self.running = {}        # owner -> (joint mode, number) of a continuous jog
+        self.next_beat = 0.0
 
     # -- what is jogged --------------------------------------------------------------------
 
@@ -113,7 +86,7 @@ class Jogger:
     def start(self, owner, selected, direction, fast=False, speed=None):
         """Begins a jog of a letter or joint; returns True when it was sent. speed: units a second, None: that of the slider."""
         app = self.app
-        if owner in self.running or not app.jog_allowed():
+        if owner in self.running or app.is_late() or not app.jog_allowed():
             return False
         joint_mode = self.joint_mode()
         number = self.number(selected, joint_mode)
@@ -127,10 +100,23 @@ class Jogger:
                 return False
             app.command.jog(linuxcnc.JOG_INCREMENT, joint_mode, number, speed, distance)
             return True
-        self.guard.beat()
         self.running[owner] = (joint_mode, number)
         app.command.jog(linuxcnc.JOG_CONTINUOUS, joint_mode, number, speed)
+        self.next_beat = 0.0
+        self.beat_on()
         return True
+
+    def beat(self):
+        """The screen gets on and the keys are held. Called in each update cycle, too, which may be long."""
+        if self.running and clock.now() >= self.next_beat:
+            self.next_beat = clock.now() + BEAT_S
+            for what in self.running.values():
+                self.app.command.jog_held(*what)
+
+    def beat_on(self):
+        if self.running:
+            self.beat()
+            self.app.root.after(int(1000 * BEAT_S), self.beat_on)
 
     def stop(self, owner):
         what = self.running.pop(owner, None)

@@ -309,6 +309,11 @@ void Task::cycle() {
 void Task::read_command() {
     NMLTYPE type = command_channel_->read();
     if (type <= 0) return;
+    if (type == EMC_JOG_HELD_TYPE) { // no command: what became of the last one stays known
+        const auto &m = static_cast<const EMC_JOG_HELD &>(*command_channel_->get_address());
+        jog_owners_.held({m.joint_or_axis, m.jjogmode ? 1 : 0}, kerf_clock_now_ns());
+        return;
+    }
     command_ = AnyMessage(*command_channel_->get_address());
     command_serial_ = static_cast<const RCS_CMD_MSG &>(*command_).serial_number;
     command_writer_ = command_channel_->last_writer();
@@ -419,18 +424,19 @@ void Task::watch_program_error() {
     if (stat_.io.coolant.flood) io_.flood(false);
 }
 
-// A continuous jog ends with the program that started it.
+// A continuous jog ends with the program that started it, or when that one does not get on.
 void Task::watch_jogs() {
     if (!jog_owners_.any()) return;
     const int64_t now = kerf_clock_now_ns();
     if (now < jogs_looked_at_ + 20 * MS) return;
     jogs_looked_at_ = now;
-    for (const JogOwners::Jog &j : jog_owners_.orphans()) {
+    for (const JogOwners::Orphan &o : jog_owners_.orphans(now)) {
         if (!stat_.motion.jogging_active) continue; // it was over
-        motion_.jog_stop(j.first, j.second);
-        operator_error((std::string("Jog of ") + (j.second ? "joint " : "axis ") +
-                        (j.second ? std::to_string(j.first) : std::string(1, "XYZABCUVW"[j.first])) +
-                        " stopped: the program that started it has ended")
+        const auto [number, joint] = o.jog;
+        motion_.jog_stop(number, joint);
+        operator_error((std::string("Jog of ") + (joint ? "joint " : "axis ") +
+                        (joint ? std::to_string(number) : std::string(1, "XYZABCUVW"[number])) +
+                        " stopped: the program that started it " + o.why)
                            .c_str());
     }
 }

@@ -18,6 +18,11 @@ bool EmcClient::send(RCS_CMD_MSG &m) {
     return true;
 }
 
+bool EmcClient::send_aside(RCS_CMD_MSG &m) {
+    int unused = 0;
+    return command_->write(m, &unused) == 0;
+}
+
 // The channel gives each status once and keeps it: whoever asks next finds it there.
 void EmcClient::look_at_status() {
     if (status_->peek() == EMC_STAT_TYPE) {

@@ -18,6 +18,8 @@ public:
 
     // Writes the command. False when the channel is not there.
     bool send(RCS_CMD_MSG &m);
+    // The same for a message that task answers nothing to (EMC_JOG_HELD): serial() and what is waited for stay.
+    bool send_aside(RCS_CMD_MSG &m);
     int serial() const { return serial_; }
     // Until task has read the last command; false after timeout_s (< 0: none) of the clock.
     bool wait_received(double timeout_s, double poll_s = 0.01);

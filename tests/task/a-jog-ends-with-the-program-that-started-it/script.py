@@ -6,6 +6,8 @@ import socket
 import struct
 import subprocess
 
+import hal
+
 from mill import *
 from wire import port
 
@@ -86,6 +88,48 @@ need(lambda s: s.position[0] > 1 and not s.joint[0]["velocity"], "jog")
 kill(child)
 sleep(0.1)
 print("one that was over:", messages())
+home()
+
+
+# A program that is stopped, one whose heartbeats end, one whose heartbeats are slow but come.
+home()
+child = client("c.jog(linuxcnc.JOG_CONTINUOUS, 0, 0, 5)")
+check("a stopped client", 0, lambda: child.send_signal(signal.SIGSTOP))
+child.send_signal(signal.SIGCONT)
+sleep(1)
+print("it goes on:", "moves" if moves(0) else "rests", messages())
+kill(child)
+BEATS = """
+c.jog(linuxcnc.JOG_CONTINUOUS, {joint}, {axis}, 5)
+for _ in range({n}):
+    c.jog_held({joint}, {axis})
+    clock.sleep({pause})
+"""
+for joint in 0, 1:
+    home()
+    c.teleop_enable(1 - joint)
+    c.wait_complete()
+    child = client(BEATS.format(joint=joint, axis=1, n=20, pause=0.2))
+    need(lambda s: abs(s.joint[1]["velocity"] - 5) < 1e-6, "speed")
+    speeds = set()
+    for _ in range(2500):
+        sleep(0.001)
+        speeds.add(round(hal.get_value("joint.1.vel-cmd"), 6))
+    print("slow heartbeats:", speeds)
+    stopped = clock.wait_until(lambda: not moves(1), 10, 0.02)
+    print("they end: stops", stopped, messages())
+    kill(child)
+home()
+child = client("for _ in range(50):\n    c.jog_held(0, 0)\n    clock.sleep(0.01)")
+sleep(0.3)
+print("heartbeats of no jog:", "moves" if moves(0) else "rests", messages())
+kill(child)
+c.jog(JOG_CONTINUOUS, 0, 0, 5)
+c.jog_held(0, 0)
+c.jog_held(0, 0)
+print("beside commands:", c.wait_complete() != RCS_ERROR, c.serial == poll().echo_serial_number)
+sleep(0.5)
+print("after that:", "moves" if moves(0) else "rests", messages())
 home()
 remote = socket.create_connection(("127.0.0.1", port()))
 message = struct.pack(">iqiidi", 124, 48, 0, 0, 5.0, 0)

@@ -440,6 +440,13 @@ void jog(Command &c, const py::args &a) {
     }
 }
 
+bool jog_held(Command &c, int jjogmode, int nr) {
+    EMC_JOG_HELD m;
+    m.joint_or_axis = nr;
+    m.jjogmode = jjogmode;
+    return c.client.send_aside(m);
+}
+
 template <class ON, class OFF> void on_off(Command &c, int on, const char *what) {
     if (on == 1) c.plain<ON>();
     else if (on == 0) c.plain<OFF>();
@@ -552,6 +559,9 @@ void define_command(py::module_ &m) {
     cls.def("jog", checked(jog),
             "jog(JOG_STOP, jjogmode, nr), jog(JOG_CONTINUOUS, jjogmode, nr, vel), jog(JOG_INCREMENT, jjogmode, nr, "
             "vel, distance)");
+    cls.def("jog_held", &jog_held, py::arg("jjogmode"), py::arg("nr"),
+            "jog_held(jjogmode, nr): the key of this continuous jog is still down. From the first such message on task "
+            "stops the jog when the next one does not come within 0.25 s. Returns at once; False: not sent");
     cls.def("load_tool_table", [](Command &c) { c.plain<EMC_TOOL_LOAD_TOOL_TABLE>(); });
     cls.def("mdi", &mdi, "Executes one line of G-code");
     cls.def("mode", [](Command &c, int mode) {
