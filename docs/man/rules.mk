@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Manual pages of programs: an .adoc file here for each program or family of them that is no HAL component. A page is
+# Manual pages: an .adoc file here for each program, module or family of them that is no HAL component. A page is
 # found by every name in its NAME section; `:source:` names the files that read its options (tests/docs compares them).
 # All pages, of components too (MANUAL_PAGES), go into docs/build/man.
 MANUAL_PAGES += $(sort $(wildcard docs/man/*.adoc)) $(O)/gen/man/halcmd.adoc

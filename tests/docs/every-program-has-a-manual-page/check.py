@@ -3,7 +3,7 @@
 
 Each has a page of section 1 that names it. A page of docs/man has its sections. The options in bold of a page with
 `:source:` stand in those files, and options that the files tell a parser of stand on the page. Pages named in SEE
-ALSO exist. The pins of halui are those of its source.
+ALSO exist. The pins of halui, motion, task and limitcheck stand on their pages.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from pathlib import Path
 
 BUILT = Path("docs/build/man")
 SECTIONS = ("NAME", "SYNOPSIS", "DESCRIPTION", "EXIT STATUS", "SEE ALSO")
+TITLE_1 = re.compile(r"^= \S+\(1\)$", re.M)
 LETTERS = re.compile(r"""getopt(?:_long|s)?\b[^"'\n]*["']\+?([A-Za-z0-9?:]+)["']""")
 
 
@@ -76,17 +77,15 @@ def check_options(path: Path, source: str) -> None:
         print(f"{path}: {option} is missing")
 
 
-def check_halui() -> None:
-    page = Path("docs/man/halui.adoc").read_text()
-    source = Path("src/emc/usr_intf/halui/halui.cc").read_text()
-    made = set(re.findall(r'(?:in_\w+|out\w*)\(\s*(?:std::string\()?"([^"]+)"', source))
-    made |= set(re.findall(r'(?:out\w*|in_\w+)\(name \+ "([^"]+)"', source))
-    for name in sorted(re.sub(r"^%s|%\w+$", "", name) for name in made):
-        if not re.search(rf"\*{re.escape(name)}\*", page):
-            print(f"halui.adoc: no {name}")
-    for name in re.findall(r"\*\*(halui\.[\w.-]*\w)\*\*", page):
-        if f'"{name}' not in source and not any(f'"{name}'.endswith(f'.{p}') for p in ("jog-speed", "jog-deadband")):
-            print(f"halui.adoc: {name} is not in the source")
+def check_pins(page: str, source: str, *forms: str) -> None:
+    """What the forms find in the source are pins; the page has them, in bold, with or without their prefix."""
+    text, made = Path(page).read_text(), Path(source).read_text()
+    names = {re.sub(r"^%s|%\w+$", "", name) for form in forms for name in re.findall(form, made)}
+    for name in sorted(names):
+        if not re.search(rf"[*.]{re.escape(name.lstrip('.'))}\*", text):
+            print(f"{page}: no {name}")
+    if not names:
+        print(f"{page}: no pins in {source}")
 
 
 def main(programs: list[str]) -> None:
@@ -97,14 +96,19 @@ def main(programs: list[str]) -> None:
         check_references(path)
     for path in sorted([*Path("docs/man").glob("*.adoc*"), *Path("src/hal/components/man").glob("*.adoc")]):
         text = path.read_text()
-        for title in SECTIONS:
-            if path.parent.name == "man" and path.parts[0] == "docs" and f"\n== {title}\n" not in text:
+        for title in SECTIONS if path.parts[0] == "docs" and TITLE_1.search(text) else ():
+            if f"\n== {title}\n" not in text:
                 print(f"{path}: no {title}")
         if files := re.search(r"^:source: (.*)$", text, re.M):
             check_options(path, "\n".join(Path(f).read_text() for f in files.group(1).split()))
         elif path.parts[0] == "docs":
             print(f"{path}: no :source:")
-    check_halui()
+    check_pins("docs/man/halui.adoc", "src/emc/usr_intf/halui/halui.cc",
+               r'(?:in_\w+|out\w*)\(\s*(?:std::string\()?"([^"]+)"',
+               r'(?:out\w*|in_\w+)\(name \+ "([^"]+)"')
+    check_pins("docs/man/motmod.adoc", "src/emc/motion/pins.c", r'ROW\(\w+, "([^"]+)"')
+    check_pins("docs/man/milltask.adoc", "src/emc/task/io_control.cc", r'(?:bit|s32)\([^;]*"([a-z-]+)"\);')
+    check_pins("docs/man/limitcheck.adoc", "src/emc/motion/limitcheck.c", r'"limitcheck\.%d\.([a-z-]+)"')
 
 
 main(sys.argv[1:])
