@@ -10,6 +10,8 @@
 #include <cstring>
 #include <ctime>
 
+#include "emc/rs274ngc/setup.hh"
+
 namespace
 {
 constexpr size_t MOST_MARKS = 20000, MOST_CHANGES = 20000; // kept, also of a program without an end
@@ -90,7 +92,7 @@ namespace
 class PathCanon final : public PreviewCanon
 {
   public:
-    PathCanon(ProgramPath &p, const ProgramOptions &o) : path(p), options(o), here(o.start) {}
+    PathCanon(ProgramPath &p, const ProgramOptions &o) : path(p), options(o), tools(o.tools), here(o.start) {}
     Interp *interp = nullptr;
 
     double GET_EXTERNAL_LENGTH_UNITS() override { return options.linear_units; }
@@ -98,11 +100,24 @@ class PathCanon final : public PreviewCanon
     int GET_EXTERNAL_AXIS_MASK() override { return options.axis_mask; }
     bool GET_BLOCK_DELETE() override { return options.block_delete; }
     std::string GET_EXTERNAL_PARAMETER_FILE_NAME() override { return options.parameter_file; }
-    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return int(options.tools.size()) - 1; }
+    int GET_EXTERNAL_TOOL_TABLE_LAST() override { return int(tools.size()) - 1; }
     CANON_TOOL_TABLE GET_EXTERNAL_TOOL_TABLE(int idx) override
     {
-        return size_t(idx) < options.tools.size() ? options.tools[size_t(idx)] : tooldata_entry_init();
+        return size_t(idx) < tools.size() ? tools[size_t(idx)] : tooldata_entry_init();
     }
+    void SET_TOOL_TABLE_ENTRY(int idx, int toolno, const EmcPose &offset, double diameter, double frontangle,
+                              double backangle, int orientation) override
+    {
+        if (idx < 0 || size_t(idx) >= tools.size()) return;
+        CANON_TOOL_TABLE &t = tools[size_t(idx)];
+        t.toolno = toolno;
+        t.offset = offset;
+        t.diameter = diameter;
+        t.frontangle = frontangle;
+        t.backangle = backangle;
+        t.orientation = orientation;
+    }
+    void CHANGE_TOOL_NUMBER(int idx) override { load_tool(size_t(std::max(idx, 0))); }
     void print_line(const char *) override {}
     bool hal_value(const char *name, double *value) override
     {
@@ -188,6 +203,11 @@ class PathCanon final : public PreviewCanon
     {
         first_move = true;
         need_jump = true;
+        const auto place =
+            std::find_if(tools.begin(), tools.end(), [&](const CANON_TOOL_TABLE &t) {
+                return &t != tools.data() && t.toolno == toolno;
+            });
+        load_tool(place == tools.end() ? 0 : size_t(place - tools.begin()));
         if (path.tool_changes.size() < MOST_CHANGES)
             path.tool_changes.emplace_back(uint32_t(path.points.size()), toolno);
     }
@@ -220,6 +240,13 @@ class PathCanon final : public PreviewCanon
     bool stop = false; // (AXIS,stop)
 
   private:
+    /// Index 0 is the spindle, as in the machine's own table.
+    void load_tool(size_t idx)
+    {
+        if (idx >= tools.size()) return;
+        if (interp && interp->setup().random_toolchanger) std::swap(tools[0], tools[idx]);
+        else tools[0] = idx > 0 ? tools[idx] : tooldata_entry_init();
+    }
     /// The height behind the comma, inches; without a number nothing changes.
     void foam_plane(std::optional<double> &plane, const char *rest, double unreadable)
     {
@@ -311,6 +338,7 @@ class PathCanon final : public PreviewCanon
 
     ProgramPath &path;
     const ProgramOptions &options;
+    std::vector<CANON_TOOL_TABLE> tools; // as the program changes them
     PreviewFrame frame;
     Point9 here;
     Point9 tool{};

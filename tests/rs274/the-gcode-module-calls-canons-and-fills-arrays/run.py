@@ -141,6 +141,17 @@ with tempfile.TemporaryDirectory() as d:
               and turns.points.tolist() == [row[:columns] for row in turns.positions.tolist()], turns.points.shape)
         check(turns.positions.tolist()[2][:4] == [2, 1, 0, 5]
               and turns.positions.tolist()[-1][6] == (2 if columns == 7 else 0), turns.positions.tolist())
+    # The tool that is in the spindle is the one that was changed to, and what G10 sets lasts.
+    inch = [Canon(d).get_tool(9)] + [(n, 0., 0., n * 25.4) + (0.,) * 6 + (n * 5.08, 0., 0., 0) for n in (1, 2, 3)]
+    for lines, length in (("T2 M6\nG43", 2), ("T2 M6\nG43\nT3 M6\nG43", 3), ("G10 L1 P2 Z9\nT2 M6\nG43", 9),
+                          ("T2 M6\nG43 H3", 3), ("T2 M6\nM61 Q1\nG43", 1), ("T2 M6\nG43\nT0 M6\nG43", 0)):
+        open(d + "/tool.ngc", "w").write(lines + "\nG0 Z1\nG1 X1 F9\nM2\n")
+        p2 = gcode.load(d + "/tool.ngc", tools=inch, initcodes=["G20"])
+        check(near(p2.extents_tool[1], [1, 0, 1 + length], 1e-5) and near(p2.extents[1], [1, 0, 1]),
+              f"{lines}: {p2.extents_tool} {p2.error}")
+    open(d + "/comp.ngc", "w").write("T2 M6\nG42\nG1 X2 Y2 F9\nX9\nM2\n")
+    compensated = gcode.load(d + "/comp.ngc", tools=inch, initcodes=["G20"]).extents[1][1]
+    check(near([compensated], [1.8]), f"the radius of the tool that was changed to: {compensated}")
     stop = gcode.load(d + "/t.ngc", tools=tools, progress=lambda line: True)
     check(stop.result in (0, 1), stop.result)
     open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")
