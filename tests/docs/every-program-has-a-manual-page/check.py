@@ -67,9 +67,13 @@ def stands_in(option: str, source: str) -> bool:
     return any(re.search(form, source) for form in forms) or option in told_to_parsers(source)
 
 
+def options_on(page: str) -> set[str]:
+    text = re.sub(r"^----$.*?^----$|^== (PINS|PARAMETERS)$.*?(?=^== )", "", page, flags=re.M | re.S)
+    return set(re.findall(r"(?<![\w*])\*\*?(--?[A-Za-z0-9?][\w-]*)", text))
+
+
 def check_options(path: Path, source: str) -> None:
-    text = re.sub(r"^----$.*?^----$|^== (PINS|PARAMETERS)$.*?(?=^== )", "", path.read_text(), flags=re.M | re.S)
-    documented = set(re.findall(r"(?<![\w*])\*\*?(--?[A-Za-z0-9?][\w-]*)", text))
+    documented = options_on(path.read_text())
     for option in sorted(documented):
         if not stands_in(option, source):
             print(f"{path}: {option} is not in the source")
@@ -101,7 +105,7 @@ def main(programs: list[str]) -> None:
                 print(f"{path}: no {title}")
         if files := re.search(r"^:source: (.*)$", text, re.M):
             check_options(path, "\n".join(Path(f).read_text() for f in files.group(1).split()))
-        elif path.parts[0] == "docs":
+        elif path.parts[0] == "docs" or TITLE_1.search(text) and options_on(text):
             print(f"{path}: no :source:")
     check_pins("docs/man/halui.adoc", "src/emc/usr_intf/halui/halui.cc",
                r'(?:in_\w+|out\w*)\(\s*(?:std::string\()?"([^"]+)"',
