@@ -174,10 +174,9 @@ def make(app):
 
         def task_step(*event):
             s.poll()
-            if s.task_state != linuxcnc.STATE_ON or app.refused_while_homing():
+            if s.task_state != linuxcnc.STATE_ON:
                 return
-            if s.interp_state == linuxcnc.INTERP_IDLE and (app.loading or app.follow_opened() or app.shown_is_old() or not app.accept_limits() or
-                                                               not app.manual_ok() or app.follow_opened()):
+            if s.interp_state == linuxcnc.INTERP_IDLE and not app.may_start():
                 return
             if app.ensure_mode(linuxcnc.MODE_AUTO):
                 c.auto(linuxcnc.AUTO_STEP)

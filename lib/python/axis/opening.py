@@ -111,7 +111,7 @@ class OpeningPart:
         self.show_kept()
 
     def other_program(self):
-        """Path of the program that another client opened in task, or None. While something runs, task may name a subroutine's file."""
+        """Path of the program that another client opened in task, or None. Task names it while nothing runs."""
         s = self.stat
         if self.loading or s.interp_state != linuxcnc.INTERP_IDLE or not s.file or len(s.file) >= LONGEST_NAME:
             return None
@@ -119,7 +119,7 @@ class OpeningPart:
         return None if same or not os.path.isfile(s.file) else s.file
 
     def follow_opened(self):
-        """FP-130: what another client opened is what would run: it is shown, and nothing is commanded. True when it was so."""
+        """FP-130: what another client opened would run: it is shown, nothing is commanded. True when it was so."""
         path = self.other_program()
         if not path:
             return False
@@ -131,7 +131,8 @@ class OpeningPart:
             self.disk_state, self.changed_on_disk = self.state_on_disk(), False
             self.kept = self.beside(self.loader.kept_text, path)
             self.show_kept()
-            self.notifications.add("info", self.translate("Another program opened %s. It is shown now.") % os.path.basename(path))
+            text = self.translate("Another program opened %s. It is shown now.")
+            self.notifications.add("info", text % os.path.basename(path))
         except OSError as e:
             self.notifications.add("error", f"{path}: {e.strerror}")
         finally:
@@ -272,10 +273,11 @@ class OpeningPart:
         return self.comparison[1][0] == self.loaded_text[1] if self.comparison[1] else None
 
     def shown_is_old(self):
-        """The file was changed after it was opened: whoever opens it again gets another program. The operator is told."""
+        """The file was changed after it was opened: who opens it again gets another program. The operator is told."""
         self.look_at_file()
         try:
-            old = self.changed_on_disk and self.shown_file == self.loaded_file and not filecmp.cmp(self.kept, self.loaded_file, shallow=False)
+            old = self.changed_on_disk and self.shown_file == self.loaded_file and \
+                not filecmp.cmp(self.kept, self.loaded_file, shallow=False)
         except OSError:                  # it is gone: task has it as it was
             old = False
         if old:
@@ -410,10 +412,16 @@ class OpeningPart:
                 return False
             self.reload_file()
 
-    def run_from(self, line):
+    def may_start(self):
+        """The shown program can be run or stepped now, and the operator wants it."""
         def possible():
-            return not self.loading and self.manual_ok() and not self.running() and self.loaded_file and not self.follow_opened()
-        if not possible() or self.shown_is_old() or self.refused_while_homing() or not self.accept_limits() or not possible():     # much may happen meanwhile
+            return not self.loading and self.manual_ok() and not self.running() and not self.follow_opened()
+        if not possible() or self.shown_is_old() or self.refused_while_homing():
+            return False
+        return self.accept_limits() and possible()           # much may happen meanwhile
+
+    def run_from(self, line):
+        if not self.loaded_file or not self.may_start():
             return
         if line > 0:
             self.start_at(line)
