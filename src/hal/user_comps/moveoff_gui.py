@@ -15,7 +15,7 @@ import hal
 from hal import query
 from kerf import tkstyle
 from kerf.language import _, N_
-from kerf.numbertext import with_point
+from kerf.numbertext import plain, with_point
 
 POLL_MS = 1000
 PULSE_MS = 100              # of halui.program.resume
@@ -330,7 +330,7 @@ class Window:
         """The number of an entry; what is no number stays in it, red."""
         text = self.entries[axis].get()
         try:
-            value = float(with_point(text))
+            value = float(with_point(plain(text)))
             good = value == value and abs(value) != float("inf")
         except ValueError:
             good = False

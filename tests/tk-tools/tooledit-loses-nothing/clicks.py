@@ -30,6 +30,11 @@ hand.key("Down")
 hand.type("1e")
 print("typed:", window.table.rows[1].get("X"), "red:", cell(2, "X").cget("foreground") == window.style.colours["bad"],
       cell(1, "X").cget("foreground") == window.style.colours["ink"])
+hand.key("ctrl+slash")
+hand.type("1_0")        # the controller reads 1, Python 10
+print("red:", cell(2, "X").cget("foreground") == window.style.colours["bad"])
+hand.key("ctrl+slash")
+hand.type("1e")
 hand.key("Right")
 hand.key("Up")
 print("focus is Z of tool 2:", root.focus_get() is cell(1, "Z"))

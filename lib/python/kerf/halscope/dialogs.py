@@ -5,7 +5,7 @@ import tkinter as tk
 from tkinter import messagebox, ttk
 
 from ..language import _
-from ..numbertext import with_point
+from ..numbertext import plain, with_point
 from . import acquire, settings as st
 from .geometry import engineering
 
@@ -129,7 +129,7 @@ class OffsetDialog(tk.Toplevel):
 
     def accept(self):
         try:
-            value = float(with_point(self.offset.get()))
+            value = float(with_point(plain(self.offset.get())))
             if value != value or value in (float("inf"), float("-inf")):
                 raise ValueError
         except ValueError:

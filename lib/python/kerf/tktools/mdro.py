@@ -13,7 +13,7 @@ import hal
 
 from .. import tkstyle
 from ..language import _, N_
-from ..numbertext import with_point
+from ..numbertext import plain, with_point
 
 PERIOD_MS = 100
 SYSTEMS = 4                         # that can be set, beside the machine's own
@@ -154,7 +154,7 @@ class Window:
         """The entry's number becomes the position; a wrong one stays, red."""
         entry = self.entries[i]
         try:
-            value = float(with_point(entry.get()))
+            value = float(with_point(plain(entry.get())))
         except ValueError:
             entry.configure(foreground=self.style.colours["bad"])
             return

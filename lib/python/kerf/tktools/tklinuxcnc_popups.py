@@ -7,7 +7,7 @@ from tkinter import messagebox, ttk
 import linuxcnc
 
 from ..language import _, N_
-from ..numbertext import with_point
+from ..numbertext import plain, with_point
 from .machine import LETTERS
 
 TOOL, LENGTH, DIAMETER = _("Tool"), _("Length"), _("Diameter")
@@ -85,7 +85,7 @@ class Popups:
 
         def accept(_event=None):
             try:
-                values = {name: float(with_point(e.get())) for name, e in entries.items() if e.get().strip()}
+                values = {name: float(with_point(plain(e.get()))) for name, e in entries.items() if e.get().strip()}
             except ValueError as error:
                 messagebox.showerror(title, str(error), parent=top)
                 return

@@ -13,6 +13,7 @@ from pathlib import Path
 import kerf_tooltext
 
 from ..language import _
+from ..numbertext import plain
 
 COMMENT = ";"
 WHOLE = "TPQ"               # letters whose values are whole numbers
@@ -27,8 +28,8 @@ MAX_ORIENTATION = 9
 def number(letter, text):
     """The value of a cell. Raises ValueError."""
     if letter in WHOLE:
-        return int(text)
-    value = float(text)
+        return int(plain(text))
+    value = float(plain(text))
     if not math.isfinite(value):
         raise ValueError(text)
     return value

@@ -10,7 +10,7 @@ import hal
 from hal import query
 
 from ..language import _
-from ..numbertext import with_point
+from ..numbertext import plain, with_point
 
 KINDS = ("pin", "param", "sig")
 BACKUP = ".halshow_watchlist_backup"
@@ -107,13 +107,13 @@ def convert(type_, text):
         raise ValueError(_("'%s' is no bit: 1, 0, true or false") % text)
     if type_ == "float":
         try:
-            return float(with_point(text))
+            return float(with_point(plain(text)))
         except ValueError:
             raise ValueError(_("'%s' is no number") % text) from None
     bits = int(type_[1:])
     low, high = (-2 ** (bits - 1), 2 ** (bits - 1) - 1) if type_[0] == "s" else (0, 2 ** bits - 1)
     try:
-        value = int(text, 16 if "x" in text.lower() else 10)
+        value = int(plain(text), 16 if "x" in text.lower() else 10)
     except ValueError:
         raise ValueError(_("'%s' is no whole number") % text) from None
     if not low <= value <= high:
