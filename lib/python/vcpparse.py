@@ -207,26 +207,28 @@ def create_vcp(master, component=None, path=None):
     builder.build(path or filename, master)
 
     def poll():
-        try:
-            for widget in builder.panel.widgets:
+        for widget in builder.panel.widgets:
+            try:
                 if hasattr(widget, "follow"):
                     widget.follow()
                 if hasattr(widget, "tint"):
                     widget.tint()
-        except (RuntimeError, hal.error) as error:      # the component has left HAL
-            print(f"pyvcp: {error}")
-            return
-        except tkinter.TclError:
-            if gone(master):
+            except (RuntimeError, hal.error) as error:      # the component has left HAL
+                print(f"pyvcp: {error}")
                 return
-            raise
+            except Exception as error:      # one widget's fault stops no other
+                if gone(master):
+                    return
+                if widget not in told:
+                    told.add(widget)
+                    print(f"pyvcp: {type(widget).__name__.lower()}: {error}", file=sys.stderr)
         waiting[:] = [master.after(POLL_MS, poll)]
 
     def ended(event):
         """The panel goes: nothing is looked at any more."""
         if event.widget is master and waiting:
             master.after_cancel(waiting.pop())
-    waiting = []
+    waiting, told = [], set()
     poll()
     master.bind("<Destroy>", ended, "+")
     return component

@@ -49,6 +49,14 @@ class Follower:
         return value
 
 
+def written(pattern, value):
+    """The number by a format; one that has no whole part for %d (NaN, infinite) as it is."""
+    try:
+        return pattern % value
+    except (ValueError, OverflowError):
+        return f"{value:g}"
+
+
 def brightness(widget, colour):
     """0 black to 1 white."""
     red, green, blue = widget.winfo_rgb(colour)

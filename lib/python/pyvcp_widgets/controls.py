@@ -9,6 +9,7 @@ import hal
 
 from .base import Canvas, Follower, ink_on
 
+S32_MIN, S32_MAX = -2 ** 31, 2 ** 31 - 1
 WHEEL = {"4": 1, "5": -1}       # buttons of X11
 
 
@@ -70,7 +71,7 @@ class Spinbox(tk.Spinbox):
         return ""
 
     def follow(self):
-        if self.param and (asked := self.param.changed()) is not None:
+        if self.param and (asked := self.param.changed()) is not None and not math.isnan(asked):
             self.put(asked)
         self.pin.set(self.number())
 
@@ -101,7 +102,7 @@ class Scale(tk.Scale):
             self.set(asked)
         value = float(self.get())
         self.real.set(value)
-        self.whole.set(int(value))
+        self.whole.set(min(max(int(value), S32_MIN), S32_MAX))
 
 
 class Wheel(Canvas):
@@ -226,6 +227,7 @@ class Jogwheel(Wheel):
         self.count, self.shown = int(panel.first(name, 0)), 0.0
         self.pin.set(self.count)
         self.make(size, cpr, text, bgcolor, "", "grey")
+        self.winfo_rgb(fillcolor)
         self.write(0.35, size / 20, tag="step")
         self.bind("<Enter>", lambda _: self.itemconfigure("face", fill=fillcolor))
         self.bind("<Leave>", lambda _: self.itemconfigure("face", fill=bgcolor))

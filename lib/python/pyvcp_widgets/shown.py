@@ -8,7 +8,7 @@ import tkinter as tk
 
 import hal
 
-from .base import Canvas, Follower
+from .base import Canvas, Follower, written
 
 SWEEP_RAD = 5.0         # of a meter's needle
 
@@ -19,6 +19,8 @@ class Lamp(Canvas):
     def make(self, panel, halpin, on_color, off_color, disable_pin, disabled_color):
         self.colors = off_color, on_color
         self.disabled_color = disabled_color
+        for color in (*self.colors, disabled_color):
+            self.winfo_rgb(color)       # a wrong colour is told when the panel is made
         name = panel.default(halpin, "led")
         self.pin = panel.new(name, hal.HAL_BIT, hal.HAL_IN)
         self.disable = panel.new(name + ".disable", hal.HAL_BIT, hal.HAL_IN) if disable_pin else None
@@ -54,17 +56,14 @@ class Number(tk.Label):
 
     def __init__(self, master, panel, halpin=None, format=None, **options):
         super().__init__(master, **options)
-        self.pattern = format if format is not None else type(self).pattern
-        self.text(self.kind == hal.HAL_FLOAT and 0.0 or 0)      # a wrong format is told when the panel is made
+        self.pattern = "%" + str(format if format is not None else type(self).pattern).lstrip("%")
+        self.pattern % (0.0 if self.kind == hal.HAL_FLOAT else 0)       # so is a wrong format
         self.value = Follower(panel.new(panel.default(halpin, "number"), self.kind, hal.HAL_IN))
         self.follow()
 
-    def text(self, value):
-        return ("%" + str(self.pattern).lstrip("%")) % value
-
     def follow(self):
         if (value := self.value.changed()) is not None:
-            self.configure(text=self.text(value))
+            self.configure(text=written(self.pattern, value))
 
 
 class U32(Number):
@@ -128,7 +127,10 @@ class Bar(Ranged):
         super().__init__(master, canvas_width, canvas_height, options)
         self.range(min_, max_)
         self.pattern = "%" + str(format).lstrip("%")
+        self.pattern % 0.0
         self.fillcolor, self.ranges = fillcolor, (range1, range2, range3) if range1 and range2 and range3 else ()
+        for _low, _high, color in self.ranges:
+            self.winfo_rgb(color)
         self.x, self.y, self.wide, self.tall = (canvas_width - bar_width) / 2, 5, bar_width, bar_height
         self.create_rectangle(self.x, self.y, self.x + bar_width, self.y + bar_height, fill=bgcolor)
         self.create_rectangle(0, 0, 0, 0, fill=fillcolor, width=0, tags="bar")
@@ -153,7 +155,7 @@ class Bar(Ranged):
             return
         self.coords("bar", self.position(0), self.y, self.position(value), self.y + self.tall)
         self.itemconfigure("bar", fill=self.color(value))
-        self.itemconfigure("number", text=self.pattern % value)
+        self.itemconfigure("number", text=written(self.pattern, value))
 
 
 class Meter(Ranged):

@@ -34,6 +34,7 @@ CASES = (
     ("<pyvcp><radiobutton/></pyvcp>", 1, ["choices = [...] is needed"]),
     ("<pyvcp><image_bit><images>'none'</images></image_bit></pyvcp>", 1, ["no image 'none'"]),
     ("<pyvcp><number><format>'q'</format></number></pyvcp>", 1, ["Error constructing number({'format': 'q'}):"]),
+    ("<pyvcp>\n<led><on_color>'sunny'</on_color></led></pyvcp>", 1, ["unknown color name \"sunny\"", "bad.xml:2"]),
     ("<pyvcp>\n<include src=\"bad.xml\"/></pyvcp>", 1, ["bad.xml: includes itself"]),
     ("<pyvcp>\n<include src=\"none.xml\"/></pyvcp>", 1, ["none.xml: No such file or directory", "bad.xml:2"]),
     ("<pyvcp><vbox><boxfill fill=\"wide\"/>\n<led/></vbox></pyvcp>", 1, ["Error constructing led({}):\nbad fill style", "bad.xml:2"]),
