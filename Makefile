@@ -161,6 +161,6 @@ include scripts/desktop.mk
 include scripts/install.mk
 
 clean:
-	rm -rf objects bin rtlib include sanitize lib/switchkins lib/linuxcnc lib/*.so lib/*.so.* lib/python/*.so
+	rm -rf objects bin rtlib include sanitize docs/build lib/switchkins lib/linuxcnc lib/*.so lib/*.so.* lib/python/*.so
 distclean: clean
 	rm -rf autom4te.cache build-aux configure config.log config.status Makefile.inc src/config.h src/config.h.in src/config.h.in~ configure~

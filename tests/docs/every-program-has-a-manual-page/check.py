@@ -3,12 +3,13 @@
 
 Each has a page of section 1 that names it. A page of docs/man has its sections. The options in bold of a page with
 `:source:` stand in those files, and options that the files tell a parser of stand on the page. Pages named in SEE
-ALSO exist. The pins of halui, motion, task and limitcheck stand on their pages.
+ALSO exist, and variables in ENVIRONMENT. The pins of halui, motion, task and limitcheck stand on their pages.
 """
 
 from __future__ import annotations
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -81,6 +82,15 @@ def check_options(path: Path, source: str) -> None:
         print(f"{path}: {option} is missing")
 
 
+def check_environment(pages: list[Path]) -> None:
+    sections = [re.search(r"^== ENVIRONMENT$.*?(?=^== )", page.read_text(), re.M | re.S) for page in pages]
+    named = {name for section in sections if section for name in re.findall(r"\*([A-Z_]{4,})\*", section.group())}
+    known = subprocess.run(["grep", "-IrhowE", "|".join(named), "src", "lib/python", "scripts"],
+                           stdout=subprocess.PIPE, text=True, check=False).stdout.split()
+    for name in sorted(named - set(known)):
+        print(f"no program looks at the variable {name}")
+
+
 def check_pins(page: str, source: str, *forms: str) -> None:
     """What the forms find in the source are pins; the page has them, in bold, with or without their prefix."""
     text, made = Path(page).read_text(), Path(source).read_text()
@@ -107,6 +117,7 @@ def main(programs: list[str]) -> None:
             check_options(path, "\n".join(Path(f).read_text() for f in files.group(1).split()))
         elif path.parts[0] == "docs" or TITLE_1.search(text) and options_on(text):
             print(f"{path}: no :source:")
+    check_environment(sorted(Path("docs/man").glob("*.adoc*")))
     check_pins("docs/man/halui.adoc", "src/emc/usr_intf/halui/halui.cc",
                r'(?:in_\w+|out\w*)\(\s*(?:std::string\()?"([^"]+)"',
                r'(?:out\w*|in_\w+)\(name \+ "([^"]+)"')
