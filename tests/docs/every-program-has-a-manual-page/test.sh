@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # What `make install` puts into bin has a manual page that says what is true.
-cd "$EMC2_HOME" || exit 1
+here=$PWD
+cd ../../.. || exit 1
 rule='print-programs: ; @echo $(notdir $(PROGRAMS) $(SCRIPTS)) $(USER_SCRIPTS)'
 programs=$(make -s --no-print-directory --eval "$rule" print-programs)
-/usr/bin/python3 -B "$TEST_DIR/check.py" $programs
+/usr/bin/python3 -B "$here/check.py" $programs
 if command -v groff > /dev/null; then
     cd docs/build/man && groff -man -Tutf8 -ww -z man1/*.1 2>&1
 else
