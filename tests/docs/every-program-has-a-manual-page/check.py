@@ -3,7 +3,8 @@
 
 Each has a page of section 1 that names it. A page of docs/man has its sections. The options in bold of a page with
 `:source:` stand in those files, and options that the files tell a parser of stand on the page. Pages named in SEE
-ALSO exist, and variables in ENVIRONMENT. The pins of halui, motion, task and limitcheck stand on their pages.
+ALSO exist, and variables in ENVIRONMENT. The pins of halui, motion, task and limitcheck stand on their pages. Functions
+that public headers declare have pages of section 3.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def check_program(name: str) -> None:
 
 def check_references(path: Path) -> None:
     section = re.search(r"^\.SH SEE ALSO\n(.*?)(?=^\.SH|\Z)", plain(path.read_text()), re.M | re.S)
-    for name, number in re.findall(r"([\w.-]+)\(([19])\)", section.group(1) if section else ""):
+    for name, number in re.findall(r"([\w.-]+)\(([139])\)", section.group(1) if section else ""):
         if not (BUILT / f"man{number}/{name}.{number}").exists():
             print(f"{path}: there is no {name}({number})")
 
@@ -82,6 +83,19 @@ def check_options(path: Path, source: str) -> None:
         print(f"{path}: {option} is missing")
 
 
+def check_functions(library: str) -> None:
+    """What a public header declares and the library has can be looked up."""
+    declared = "\n".join(path.read_text() for path in Path("include").glob("*.h"))
+    symbols = subprocess.run(["nm", "-D", "--defined-only", library], stdout=subprocess.PIPE, text=True, check=True)
+    names = re.findall(r" T (\w+)$", symbols.stdout, re.M)
+    found = [name for name in names if re.search(rf"\b{name}\(", declared)]
+    for name in found:
+        if not (BUILT / f"man3/{name}.3").exists():
+            print(f"{name}: no manual page")
+    if len(found) < 100:
+        print(f"{library}: only {len(found)} functions")
+
+
 def check_environment(pages: list[Path]) -> None:
     sections = [re.search(r"^== ENVIRONMENT$.*?(?=^== )", page.read_text(), re.M | re.S) for page in pages]
     named = {name for section in sections if section for name in re.findall(r"\*([A-Z_]{4,})\*", section.group())}
@@ -117,6 +131,7 @@ def main(programs: list[str]) -> None:
             check_options(path, "\n".join(Path(f).read_text() for f in files.group(1).split()))
         elif path.parts[0] == "docs" or TITLE_1.search(text) and options_on(text):
             print(f"{path}: no :source:")
+    check_functions("lib/liblinuxcnchal.so")
     check_environment(sorted(Path("docs/man").glob("*.adoc*")))
     check_pins("docs/man/halui.adoc", "src/emc/usr_intf/halui/halui.cc",
                r'(?:in_\w+|out\w*)\(\s*(?:std::string\()?"([^"]+)"',

@@ -7,7 +7,7 @@ rule='print-programs: ; @echo $(notdir $(PROGRAMS) $(SCRIPTS)) $(USER_SCRIPTS)'
 programs=$(make -s --no-print-directory --eval "$rule" print-programs)
 /usr/bin/python3 -B "$here/check.py" $programs
 if command -v groff > /dev/null; then
-    cd docs/build/man && groff -man -Tutf8 -ww -z man1/*.1 2>&1
+    cd docs/build/man && groff -man -Tutf8 -ww -z man1/*.1 man3/*.3 2>&1
 else
     echo "groff is not installed: pages were not rendered" >&2
 fi
