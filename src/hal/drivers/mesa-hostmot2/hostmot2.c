@@ -42,7 +42,8 @@ RTAPI_MP_INT(sserial_baudrate, "bits per second of smart-serial channels; -1 lea
 
 /* In the order in which settings are written; raw, which is no module of the firmware, is the last. */
 static const struct hm2_function_ops *const functions[] = {
-    &hm2_ioport, &hm2_watchdog, &hm2_pwmgen, &hm2_oneshot, &hm2_periodm, &hm2_rcpwmgen, &hm2_pktuart, &hm2_inmux, &hm2_inm,
+    &hm2_ioport, &hm2_watchdog, &hm2_pwmgen, &hm2_oneshot, &hm2_periodm, &hm2_rcpwmgen, &hm2_pktuart, &hm2_inmux,
+        &hm2_inm,
     &hm2_xy2mod, &hm2_tppwm, &hm2_stepgen, &hm2_sserial, &hm2_bspi, &hm2_uart, &hm2_encoder, &hm2_absenc, &hm2_resolver,
     &hm2_dpll, &hm2_led, &hm2_ssr, &hm2_outm, &hm2_raw,
 };
