@@ -4,6 +4,7 @@
 # Pages of functions (section 3) are made of the comments in public headers. All, those of components too
 # (MANUAL_PAGES), go into docs/build/man.
 MANUAL_PAGES += $(sort $(wildcard docs/man/*.adoc)) $(O)/gen/man/halcmd.adoc
+MANUAL_PAGES += src/emc/motion/homecomp.comp src/emc/tp/tpcomp.comp src/emc/kinematics/userkins.comp
 $(O)/gen/man/halcmd.adoc: docs/man/halcmd_commands.py docs/man/halcmd.adoc.in $(T)/bin/halcmd
 	$(Q)mkdir -p $(@D) && $(PYTHON) -B $< $(T)/bin/halcmd docs/man/halcmd.adoc.in > $@
 MANUAL_HEADERS = $(filter src/rtapi/%.h src/hal/%.h,$(PUBLIC_HEADERS))

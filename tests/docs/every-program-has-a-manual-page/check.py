@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""check.py PROGRAM...: prints what is wrong with the manual pages of these programs.
+"""check.py PROGRAM... -- MODULE...: prints what is wrong with their manual pages.
 
-Each has a page of section 1 that names it. A page of docs/man has its sections. The options in bold of a page with
-`:source:` stand in those files, and options that the files tell a parser of stand on the page. Pages named in SEE
-ALSO exist, and variables in ENVIRONMENT. The pins of halui, motion, task and limitcheck stand on their pages. Functions
-that public headers declare have pages of section 3.
+Each program has a page of section 1 that names it, each module one of section 9, each function that a public header
+declares one of section 3. A page of docs/man has its sections. The options in bold of a page with `:source:` stand in
+those files, and options that the files tell a parser of stand on the page. Pages named in SEE ALSO exist, and variables
+in ENVIRONMENT. The pins of halui, motion, task and limitcheck stand on their pages.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ TITLE_1 = re.compile(r"^= \S+\(1\)$", re.M)
 LETTERS = re.compile(r"""getopt(?:_long|s)?\b[^"'\n]*["']\+?([A-Za-z0-9?:]+)["']""")
 
 
-def page_of(name: str) -> Path | None:
-    path = BUILT / f"man1/{name}.1"
+def page_of(name: str, section: int) -> Path | None:
+    path = BUILT / f"man{section}/{name}.{section}"
     if not path.exists():
         return None
     if reference := re.match(r"\.so (\S+)\n", path.read_text()):
@@ -33,8 +33,8 @@ def plain(troff: str) -> str:
     return re.sub(r"\\f[BIRP]|\\&", "", troff).replace("\\-", "-")
 
 
-def check_program(name: str) -> None:
-    path = page_of(name)
+def check_page(name: str, section: int) -> None:
+    path = page_of(name, section)
     if not path:
         print(f"{name}: no manual page")
         return
@@ -116,10 +116,14 @@ def check_pins(page: str, source: str, *forms: str) -> None:
         print(f"{page}: no pins in {source}")
 
 
-def main(programs: list[str]) -> None:
-    print("90 programs or more:", len(set(programs)) >= 90)
-    for name in sorted(set(programs)):
-        check_program(name)
+def main(names: list[str]) -> None:
+    between = names.index("--")
+    programs, modules = set(names[:between]), set(names[between + 1:]) - {"hal_lib"}     # a part of HAL itself
+    print("90 programs or more:", len(programs) >= 90)
+    print("150 modules or more:", len(modules) >= 150)
+    for section, members in ((1, programs), (9, modules)):
+        for name in sorted(members):
+            check_page(name, section)
     for path in sorted(BUILT.glob("man?/*")):
         check_references(path)
     for path in sorted([*Path("docs/man").glob("*.adoc*"), *Path("src/hal/components/man").glob("*.adoc")]):
