@@ -671,6 +671,7 @@ void TaskCanon::CHANGE_TOOL() {
 }
 
 void TaskCanon::CHANGE_TOOL_NUMBER(int idx) {
+    flush(); // the interpreter waits for all before, and asks for the position then
     EMC_TOOL_SET_NUMBER m;
     m.tool = idx;
     emit(m);

@@ -52,3 +52,9 @@ for setting in ("G54 G21", "G55 G21", "G54 G20", "G59 G21"):
     print(" work coordinate plus offset is the machine's",
           abs(say("#5063")[0] * unit + s.g5x_offset[2] - s.probed_position[2]) < 1e-3)
 print("one machine coordinate", len(machine))
+# Short feed moves are held back to be joined: what is held when M61 comes is made.
+for mode in ("G61", "G64 P0.1"):
+    mdi("G49 G21 G90 G53 G0 X0 Y0 Z0")
+    run(f"G21 G90 {mode} F3000\nG53 G1 X5\nG53 G1 X10\nM61 Q4\nG91 G1 Y5\nM2\n")
+    idle()
+    print("before M61, after it", mode, xyz(3)[:2], messages())
