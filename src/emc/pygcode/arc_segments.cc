@@ -46,12 +46,13 @@ void arc_segments(std::vector<Point9> &out, const PreviewFrame &frame, int plane
     const double theta1 = atan2(start[Y] - cy, start[X] - cx);
     double theta2 = atan2(y1 - cy, x1 - cx);
     const double radius = hypot(start[X] - cx, start[Y] - cy);
-    if (rot < 0) {
+    if (hypot(start[X] - x1, start[Y] - y1) * length_scale < 1e-8) { // a circle, whatever the last digits of the angles are
+        theta2 = theta1 + (rot < 0 ? -2 * M_PI : 2 * M_PI);
+    } else if (rot < 0) {
         if (theta1 < theta2) theta2 -= 2 * M_PI;
     } else if (theta1 > theta2) {
         theta2 += 2 * M_PI;
     }
-    if (hypot(start[X] - x1, start[Y] - y1) * length_scale < 1e-8) theta2 += rot < 0 ? -2 * M_PI : 2 * M_PI;
     if (rot < -1) theta2 += 2 * M_PI * (rot + 1);
     if (rot > 1) theta2 += 2 * M_PI * (rot - 1);
     const int steps = std::max(3, int(std::min(1e7, max_segments * fabs(theta1 - theta2) / M_PI)));

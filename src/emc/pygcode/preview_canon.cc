@@ -26,21 +26,40 @@ EmcPose PreviewCanon::to_inch(const EmcPose &p) const
     return r;
 }
 
+// The machine stays where it is; what is read back is that place in the new system.
+template <class Change> void PreviewCanon::keep_place(Change change)
+{
+    auto frame = [this] {
+        PreviewFrame f;
+        f.g5x = point9(g5x);
+        f.g92 = point9(g92);
+        f.cosine = cos(rotation * (M_PI / 180));
+        f.sine = sin(rotation * (M_PI / 180));
+        const Point9 tool = point9(tool_offset);
+        for (size_t i = 0; i < 9; ++i) f.g5x[i] += tool[i];
+        return f;
+    };
+    const Point9 place = frame().to_machine(point9(position));
+    change();
+    const Point9 now = frame().from_machine(place);
+    position = {{now[0], now[1], now[2]}, now[3], now[4], now[5], now[6], now[7], now[8]};
+}
+
 void PreviewCanon::SET_G5X_OFFSET(int index, const EmcPose &offset)
 {
-    g5x = offset;
+    keep_place([&] { g5x = offset; });
     on_g5x(index, to_inch(offset));
 }
 
 void PreviewCanon::SET_G92_OFFSET(const EmcPose &offset)
 {
-    g92 = offset;
+    keep_place([&] { g92 = offset; });
     on_g92(to_inch(offset));
 }
 
 void PreviewCanon::SET_XY_ROTATION(double degrees)
 {
-    rotation = degrees;
+    keep_place([&] { rotation = degrees; });
     on_rotation(degrees);
 }
 
@@ -72,7 +91,7 @@ void PreviewCanon::SET_FEED_RATE(double rate)
 
 void PreviewCanon::USE_TOOL_LENGTH_OFFSET(const EmcPose &offset)
 {
-    tool_offset = offset;
+    keep_place([&] { tool_offset = offset; });
     on_tool_offset(last_line(), to_inch(offset));
 }
 

@@ -99,6 +99,7 @@ class PreviewCanon : public Canon
     int selected_tool = 0;
 
   private:
+    template <class Change> void keep_place(Change change);
     void spline_point(int line, double a, double b, CANON_PLANE p);
     CANON_MOTION_MODE control_mode = CANON_CONTINUOUS;
     double tolerance = 0.1, naive_tolerance = 0.1;

@@ -152,6 +152,16 @@ with tempfile.TemporaryDirectory() as d:
     open(d + "/comp.ngc", "w").write("T2 M6\nG42\nG1 X2 Y2 F9\nX9\nM2\n")
     compensated = gcode.load(d + "/comp.ngc", tools=inch, initcodes=["G20"]).extents[1][1]
     check(near([compensated], [1.8]), f"the radius of the tool that was changed to: {compensated}")
+    # What is read back after a tool change is where the machine is, in the offsets of now.
+    open(d + "/back.ngc", "w").write("G0 X5\nT1 M6\nG43.1 X1\nG10 L11 P2 Z1\nG91 G1 Y1 F9\nM2\n")
+    back = gcode.load(d + "/back.ngc", tools=inch, initcodes=["G20"])
+    check(near(back.points.tolist()[-1], [4, 1, 0]), f"the tool's offset stays in the place that is read back: {back.points.tolist()}")
+    circles = "".join(f"G10 L2 P1 X{n * .37:.3f} Y{n * -.61:.3f} R{n * 7}\nG0 X{n * .1:.2f}\nG{2 + n % 2} I.3 J{n * .1 - 1:.1f} P{1 + n % 3}\n"
+                      for n in range(40))
+    open(d + "/circles.ngc", "w").write("G20 F9\nG1 X0\n" + circles + "M2\n")
+    length = sum(2 * math.pi * math.hypot(.3, n * .1 - 1) * (1 + n % 3) for n in range(40))
+    turned = gcode.load(d + "/circles.ngc", arc_division=500).cutting_length
+    check(abs(turned - length) < .01, f"circles are gone around as often as they say: {turned}, not {length}")
     stop = gcode.load(d + "/t.ngc", tools=tools, progress=lambda line: True)
     check(stop.result in (0, 1), stop.result)
     open(d + "/bad.ngc", "w").write("G0 X1\nG0 X1 X2\nM2\n")
