@@ -75,6 +75,7 @@ static int print_completions()
 /* ---- Interactive input ---- */
 
 #ifdef HAVE_READLINE
+static const int HISTORY_LINES = 1000;
 static std::vector<std::string> candidates;
 static size_t next_candidate;
 
@@ -107,6 +108,7 @@ static void run_readline(Session &s)
     rl_attempted_completion_function = attempt;
     const std::string file = history_path();
     using_history();
+    stifle_history(HISTORY_LINES);  // also of a session that lasts for weeks
     if (!file.empty()) read_history(file.c_str());
     Joiner joiner;
     std::string line;
@@ -123,10 +125,7 @@ static void run_readline(Session &s)
         if (s.run_line(line) != 0) s.failures++;
         fflush(stdout);
     }
-    if (!file.empty()) {
-        stifle_history(1000);
-        write_history(file.c_str());
-    }
+    if (!file.empty()) write_history(file.c_str());
 }
 #endif
 
