@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Texts over the picture, at the upper left."""
 
+import re
+
 import hal
 from OpenGL import GL
 from kerf import imagefont
@@ -8,6 +10,26 @@ from PIL import Image, ImageDraw
 
 CELL = 9, 15            # of a letter
 FONT, SIZE = "DejaVuSansMono.ttf", 14
+MISSING = "----"        # in place of a pin's value
+
+
+def value_of_pin(name):
+    """None while there is no such pin: other programs may make theirs later, or end before."""
+    try:
+        return hal.get_value(name)
+    except RuntimeError:
+        return None
+
+
+def filled(string, value):
+    return re.sub(r"{[^}]*}", MISSING, string) if value is None else string.format(value)
+
+
+def number_of_tag(value, offset):
+    try:
+        return {int(value + offset)}
+    except (TypeError, ValueError, OverflowError):      # no pin, NaN, infinite
+        return set()
 
 
 class Hud:
@@ -38,17 +60,17 @@ class Hud:
 
     def add_pin(self, string, pin=None, tag=None):
         """string.format(value of the pin); pin is its full name."""
-        self.lines.append((lambda: str(string).format(hal.get_value(pin)) if pin else str(string), self.tags(tag)))
+        self.lines.append((lambda: filled(str(string), value_of_pin(pin)) if pin else str(string), self.tags(tag)))
 
     @staticmethod
     def tags(tag):
         return None if tag is None else set(tag) if isinstance(tag, (list, tuple, set)) else {tag}
 
     def show_tag_if_same(self, tag, pin, val=True):
-        self.rules.append(lambda: self.tags(tag) if hal.get_value(pin) == val else set())
+        self.rules.append(lambda: self.tags(tag) if value_of_pin(pin) == val else set())
 
     def show_tags_in_pin(self, pin, offs=0):
-        self.rules.append(lambda: {int(hal.get_value(pin) + offs)})
+        self.rules.append(lambda: number_of_tag(value_of_pin(pin), offs))
 
     def hide_all(self, pin, val=True):
         self.hiding.append((pin, val))
@@ -61,7 +83,7 @@ class Hud:
 
     def texts(self):
         """The lines to show now."""
-        if not self.showme or any(hal.get_value(pin) == value for pin, value in self.hiding):
+        if not self.showme or any(value_of_pin(pin) == value for pin, value in self.hiding):
             return []
         on = set().union(*(rule() for rule in self.rules)) if self.rules else set()
         found = [str(s) for s in self.strs] + [text() for text, tags in self.lines if tags is None or tags & on]

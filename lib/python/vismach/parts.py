@@ -6,17 +6,33 @@ Matrices are 4x4 numpy arrays that act on columns; angles are degrees.
 """
 
 import math
+import sys
 
 import numpy as np
 from OpenGL import GL
 
 
+MAX_TOLD = 10           # different errors
+told = set()
+
+
+def tell(error):
+    """On standard error, once."""
+    text = f"vismach: {type(error).__name__}: {error}"
+    if text not in told and len(told) < MAX_TOLD:
+        told.add(text)
+        print(text, file=sys.stderr)
+
+
 def visit(part):
-    """One part of a redraw."""
+    """One part of a redraw. One that fails leaves the others as they are: it may be well again with other values."""
     for name in ("apply", "capture", "draw", "traverse", "unapply"):
         step = getattr(part, name, None)
         if step is not None:
-            step()
+            try:
+                step()
+            except Exception as error:
+                tell(error)
 
 
 def modelview():
@@ -140,10 +156,10 @@ class HalRotateEuler(Transform):
         self.comp, self.angles, self.order = comp, (th1, th2, th3), order
 
     def place(self):
-        order = int(value_of(self.comp, self.order))
+        order = value_of(self.comp, self.order)
         if order not in self.ORDERS:
             return
-        for angle, axis in zip(self.angles, str(order)):
+        for angle, axis in zip(self.angles, str(int(order))):
             GL.glRotated(value_of(self.comp, angle), *(float(axis == a) for a in "123"))
 
 

@@ -13,7 +13,7 @@ from kerf import gl
 from OpenGL import GL, GLU
 
 from .hud import Hud
-from .parts import invert, visit
+from .parts import invert, tell, visit
 
 REDRAW_MS = 100
 MAX_TRACE = 16000
@@ -68,7 +68,10 @@ class Trace:
         self.points, self.near = [], size * 1e-5
 
     def add(self, tool, work):
-        point = tuple((invert(work.t) @ tool.t @ (0, 0, 0, 1))[:3])
+        try:
+            point = tuple((invert(work.t) @ tool.t @ (0, 0, 0, 1))[:3])
+        except np.linalg.LinAlgError:       # the work is scaled to nothing
+            return
         if not all(math.isfinite(v) for v in point):
             return
         if not self.points or any(abs(a - b) > self.near for a, b in zip(point, self.points[-1])):
@@ -137,6 +140,8 @@ class View:
 
     def paint(self, width, height):
         """Draws all into the present buffer."""
+        while GL.glGetIntegerv(GL.GL_MODELVIEW_STACK_DEPTH) > 1:        # a part that failed left its matrix there
+            GL.glPopMatrix()
         GL.glViewport(0, 0, width, height)
         GL.glClearColor(*BACKGROUND)
         GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
@@ -205,11 +210,14 @@ def main(model, tool, work, size=10, hud=0, rotation_vectors=None, lat=0, lon=0)
             if clear and not was_clear[0]:
                 view.trace.clear()
             was_clear[0] = clear
-            view.redraw()
         except RuntimeError as error:       # HAL was unloaded
             print(f"vismach: {error}", file=sys.stderr)
             root.destroy()
             return
+        try:
+            view.redraw()
+        except Exception as error:
+            tell(error)
         root.after(REDRAW_MS, poll)
     root.protocol("WM_DELETE_WINDOW", root.destroy)
     poll()
