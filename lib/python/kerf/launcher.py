@@ -645,8 +645,9 @@ class Session:
         if not self.busy():
             raise Died(f"DISPLAY program {name} crashed {MOST} times within {WITHIN_S:g} s, the last time it {crash}; stopping everything",
                        status_of(status))
-        print(f"{name} crashed {MOST} times within {WITHIN_S:g} s. A program runs: it goes on to its end without a screen, "
-              f"which is tried again every {RETRY_S:g} s. To end the machine, end process {os.getpid()}", file=sys.stderr, flush=True)
+        if len(self.restarts.crashes) == MOST:           # once, not at each try
+            print(f"{name} crashed {MOST} times within {WITHIN_S:g} s. A program runs: it goes on to its end without a screen, "
+                  f"which is tried again every {RETRY_S:g} s. To end the machine, end process {os.getpid()}", file=sys.stderr, flush=True)
         until = time.monotonic() + RETRY_S
         while time.monotonic() < until and self.busy():
             self.look_at_watched(ends, descriptors)
