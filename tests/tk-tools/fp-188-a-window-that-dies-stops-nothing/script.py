@@ -2,6 +2,7 @@
 import os
 import signal
 import subprocess
+import time
 from pathlib import Path
 
 from mill import *
@@ -20,11 +21,22 @@ PROGRAMS = {"halshow --noprefs w.halshow": "Halshow", "halmeter pin joint.0.moto
             "debuglevel -ini mill.ini": "LinuxCNC Debug Level", "tooledit mill.tbl": "tooledit", "tklinuxcnc -ini mill.ini": "TkLinuxCNC"}
 
 
+def seen(title, patience=120):
+    """Wall time: windows are programs beside the machine. Its own time goes on a little meanwhile, they may wait for it."""
+    end = time.monotonic() + patience
+    while subprocess.run(["xdotool", "search", "--onlyvisible", "--name", title], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
+        if time.monotonic() > end:
+            return False
+        sleep(0.002)
+        time.sleep(0.05)
+    return True
+
+
 def open_windows():
     """One of each; the machine goes on meanwhile."""
     started = [subprocess.Popen(words.split(), env=env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for words in PROGRAMS]
     for title in PROGRAMS.values():
-        if subprocess.run(["timeout", "20", "xdotool", "search", "--sync", "--onlyvisible", "--name", title], stdout=subprocess.DEVNULL).returncode:
+        if not seen(title):
             print("no window:", title)
     return started
 
