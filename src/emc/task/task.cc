@@ -307,13 +307,14 @@ void Task::cycle() {
 }
 
 void Task::read_command() {
+    enum { MOST_BEATS = 16 };
     NMLTYPE type = command_channel_->read();
-    if (type <= 0) return;
-    if (type == EMC_JOG_HELD_TYPE) { // no command: what became of the last one stays known
+    // Heartbeats are no commands: what became of the last one stays known, and the next one need not wait.
+    for (int n = 0; type == EMC_JOG_HELD_TYPE && n < MOST_BEATS; n++, type = command_channel_->read()) {
         const auto &m = static_cast<const EMC_JOG_HELD &>(*command_channel_->get_address());
         jog_owners_.held({m.joint_or_axis, m.jjogmode ? 1 : 0}, kerf_clock_now_ns());
-        return;
     }
+    if (type <= 0 || type == EMC_JOG_HELD_TYPE) return;
     command_ = AnyMessage(*command_channel_->get_address());
     command_serial_ = static_cast<const RCS_CMD_MSG &>(*command_).serial_number;
     command_writer_ = command_channel_->last_writer();

@@ -45,7 +45,7 @@ class Command:
 
     def __getattr__(self, name):
         function = getattr(self.real, name)
-        if name in ("wait_complete", "serial", "maxvel", "task_plan_synch"):
+        if name in ("wait_complete", "serial", "maxvel", "task_plan_synch", "jog_held"):
             return function
 
         def call(*args):
