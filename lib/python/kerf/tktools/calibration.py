@@ -29,7 +29,7 @@ class NotPossible(Exception):
 
 def lines_of(path):
     """Physical lines with their ends; bytes as characters, so that they can be written back unchanged."""
-    return Path(path).read_bytes().decode("latin-1").splitlines(keepends=True)
+    return re.findall(r"[^\n]*\n|[^\n]+", Path(path).read_bytes().decode("latin-1"))     # Python ends lines in many letters
 
 
 def walk(path, section="", depth=0):

@@ -475,7 +475,7 @@ class Window:
                 text = f"{s.file}: {error.strerror}"
             self.text.configure(state="normal")
             self.text.delete("1.0", "end")
-            self.text.insert("end", "".join(f"{n:6d}: {line}\n" for n, line in enumerate(text.splitlines(), 1)))
+            self.text.insert("end", "".join(f"{n:6d}: {line}\n" for n, line in enumerate(text.split("\n"), 1)))
             self.text.configure(state="disabled")
         line = (s.motion_line or s.current_line) if status != "idle" else 0
         if line != self.shown_line:
