@@ -67,3 +67,6 @@ END
 echo "== once more, alone"
 make_test r/flaky '[ -f ran ] && echo x; touch ran' x
 run --retries 1 r
+echo "== below nohup, signals reach a test's programs"
+make_test h/hangup 'sleep 7714 & kill -HUP $!; wait $!; echo $?' 129
+(trap '' HUP; run h)
