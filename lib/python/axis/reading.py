@@ -6,6 +6,8 @@ Reading is the screen's end of it, main() the process. What is drawn comes back 
 else as one Program. No widgets here. Inches, degrees, inches a minute, seconds.
 """
 
+import contextlib
+import io
 import os
 import pickle
 import select
@@ -19,6 +21,7 @@ from kerf import process
 
 MOST_VERTICES = 3000000  # of the drawing; longer paths are drawn coarser
 MOST_MB = 400            # that the process may take
+LOOK_S = 0.1             # whether the process is still there
 GRACE_S = 1.0            # for the process to hand over what it has, when it is asked to stop or its time is over
 
 
@@ -76,7 +79,8 @@ class Reading:
         self.reports, writing = os.pipe()
         start = f"import sys; sys.path[:] = {sys.path!r}; from axis.reading import main; sys.exit(main({os.getpid()}, {wanted}, {writing}))"
         try:
-            self.child = subprocess.Popen([sys.executable, "-c", start], stdin=subprocess.PIPE, pass_fds=[wanted, writing, *self.files])
+            self.child = subprocess.Popen([sys.executable, "-c", start], stdin=subprocess.PIPE, start_new_session=True,
+                                          pass_fds=[wanted, writing, *self.files])
         finally:
             os.close(wanted)
             os.close(writing)
@@ -85,14 +89,15 @@ class Reading:
         """(Program, drawings); progress(line) tells how far it is."""
         import kerf_raster
         program, drawings = None, []
-        with open(self.reports, "rb") as reports:
-            try:
-                while program is None:
-                    line, program = pickle.load(reports)
-                    progress(line)
-            except (EOFError, pickle.UnpicklingError):
-                pass
+        for line, program in self.messages():
+            progress(line)
+            if program is not None:
+                break
+        os.close(self.reports)
         self.child.stdin.close()
+        with contextlib.suppress(ChildProcessError, ProcessLookupError):
+            os.waitid(os.P_PID, self.child.pid, os.WEXITED | os.WNOWAIT)
+            os.killpg(self.child.pid, signal.SIGKILL)        # what a remap in Python started
         status = self.child.wait()
         if program is None:
             program = Program(late=self.killed and self.stopped is None, failed="" if self.killed else f"signal {-status}" if status < 0 else f"status {status}")
@@ -103,6 +108,33 @@ class Reading:
         self.files = []
         return program, drawings
 
+    def messages(self):
+        """What the process tells until it ends, also when something that it started keeps the pipe open."""
+        data = b""
+        while True:
+            if select.select([self.reports], [], [], LOOK_S)[0]:
+                got = os.read(self.reports, 1 << 20)
+                if not got:
+                    return
+                data += got
+            elif self.ended():
+                return
+            while data:
+                stream = io.BytesIO(data)
+                try:
+                    message = pickle.load(stream)
+                except (EOFError, pickle.UnpicklingError):       # not yet whole
+                    break
+                data = data[stream.tell():]
+                yield message
+
+    def ended(self):
+        """Whether the process is no more."""
+        try:
+            return os.waitid(os.P_PID, self.child.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+        except ChildProcessError:
+            return True
+
     def stop(self):
         """Asks for what there is so far."""
         if self.stopped is None:
@@ -112,12 +144,13 @@ class Reading:
     def look(self):
         """Ends a process that does not answer; to be called now and then."""
         now = time.monotonic()
-        if (now > self.end or self.stopped and now > self.stopped + GRACE_S) and self.child.poll() is None:
+        if (now > self.end or self.stopped and now > self.stopped + GRACE_S) and not self.ended():
             self.kill()
 
     def kill(self):
         self.killed = True
-        self.child.kill()
+        if not self.ended():
+            os.killpg(self.child.pid, signal.SIGKILL)
 
 
 def read(arguments, max_feed, places, files, seconds, tell):

@@ -9,6 +9,15 @@ import operator_lib as lib
 from axis import opening
 
 
+def gone(pid):
+    """Whether a process has ended; its parent may not have looked yet."""
+    try:
+        with open(f"/proc/{pid}/stat") as f:
+            return f.read().rsplit(")", 1)[1].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, here = op.app, os.path.dirname(os.getcwd())
@@ -80,7 +89,14 @@ def script(op):
     open_while("part.ngc", lambda pid: os.kill(pid, signal.SIGSEGV))
     show("crashes")
     run()
-    app.loader.megabytes = 1
+    for name, end in (("hangs", escape), ("crashes", None)):
+        if end:
+            op.root.after(600, end)
+        open_while(f"fork-{name}.ngc")
+        show(f"a remap in Python that forks and {name}")
+        with open(os.path.join(here, "forked")) as f:
+            print("  what it started is gone:", gone(int(f.read())), "by itself:", os.path.exists(os.path.join(here, "forked-ended")))
+    app.loader.megabytes = 10
     open_while("beyond.ngc")
     show("too much memory")
     run()
