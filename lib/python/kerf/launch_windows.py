@@ -5,6 +5,7 @@
     python3 -m kerf.launch_windows errors DIED [PRINT_LOG DEBUG_LOG]
 """
 
+import io
 import subprocess
 import sys
 import tkinter as tk
@@ -15,13 +16,25 @@ from . import tkstyle
 from .language import _, N_
 
 REPORT = Path("/tmp/linuxcnc.report")
+MOST_OF_SCREEN = 0.8        # for the picture of the start
+
+
+def fitting(root, picture):
+    """The picture as large as the screen's scale says, and no larger than the greater part of it."""
+    from PIL import Image
+    screen = root.winfo_screenwidth(), root.winfo_screenheight()
+    with Image.open(picture) as image:
+        factor = min(tkstyle.screen_scale(root), *(MOST_OF_SCREEN * most / side for most, side in zip(screen, image.size)))
+        data = io.BytesIO()
+        image.convert("RGBA").resize([max(1, round(side * factor)) for side in image.size], Image.LANCZOS).save(data, "PNG")
+    return tk.PhotoImage(data=data.getvalue())
 
 
 def splash(picture, seconds):
     """A bare window with the picture in the middle of the screen; a click or the time ends it."""
     root = tk.Tk()
     root.overrideredirect(True)
-    image = tk.PhotoImage(file=picture)
+    image = fitting(root, picture)
     tk.Label(root, image=image, borderwidth=2, relief="ridge").pack()
     x, y = (root.winfo_screenwidth() - image.width()) // 2, (root.winfo_screenheight() - image.height()) // 2
     root.geometry(f"+{max(x, 0)}+{max(y, 0)}")

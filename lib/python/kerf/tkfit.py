@@ -20,7 +20,7 @@ SCROLLED, FEW_LINES = ("Text", "Listbox", "Treeview", "Canvas"), 4
 
 # Lengths in pixels that widgets were given, by class. Themes and named fonts follow by themselves.
 LENGTHS = {"Canvas": ("width", "height"), "Label": ("wraplength", "padx", "pady"), "TLabel": ("wraplength", "padding"), "TFrame": ("padding",),
-           "TLabelframe": ("padding",), "TScale": ("length",), "Scale": ("length",), "Button": ("padx", "pady")}
+           "TLabelframe": ("padding",), "TScale": ("length",), "Scale": ("length", "width", "sliderlength"), "Button": ("padx", "pady")}
 GAPS = ("padx", "pady", "ipadx", "ipady")
 
 

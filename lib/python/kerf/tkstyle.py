@@ -83,9 +83,31 @@ def screen_scale(root):
         given = 0.0
     if given > 0:
         return min(max(given, 1.0), MAX_SCALE)
-    by_density = root.winfo_fpixels("1i") / 96
+    by_density = getattr(root, "kerf_density", root.winfo_fpixels("1i") / 96)
     by_height = root.winfo_screenheight() / 1080 if root.winfo_screenheight() > 1200 else 1.0
     return min(max(by_density, by_height, 1.0), MAX_SCALE)
+
+
+def style_of(widget):
+    """What apply() found for the widget's program; without it a usual screen."""
+    return getattr(widget._root(), "kerf_style", None) or Style(LIGHT, False, 1.0)
+
+
+def follow(widget, resize):
+    """resize() now and whenever the scale changes, as long as the widget is there."""
+    root = widget._root()
+    root.kerf_followers = [(w, action) for w, action in getattr(root, "kerf_followers", ()) if w.winfo_exists()] + [(widget, resize)]
+    resize()
+
+
+def _tell_scale(root, style):
+    """Lengths in points and millimetres, and drawings, have the scale, too."""
+    if not hasattr(root, "kerf_density"):
+        root.kerf_density = root.winfo_fpixels("1i") / 96
+    root.tk.call("tk", "scaling", max(style.scale, root.kerf_density if style.scale == 1 else 1.0) * 96 / 72)
+    for widget, resize in getattr(root, "kerf_followers", ()):
+        if widget.winfo_exists():
+            resize()
 
 
 def apply(root, dark=None, fits=True, most=MAX_SCALE):
@@ -100,6 +122,8 @@ def apply(root, dark=None, fits=True, most=MAX_SCALE):
         tkinter.font.nametofont("TkFixedFont", root).configure(family="DejaVu Sans Mono", size=-letters)
         _options(root, style.colours, style)
         _themed(ttk.Style(root), style.colours, style, letters)
+        _tell_scale(root, style)
+    root.kerf_style = style
     restyle()
     root.configure(background=style.colours["face"])
     if fits:
@@ -117,7 +141,8 @@ def _options(root, colours, style):
                            ("*selectBackground", colours["select"]), ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
                            ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),
                            ("*Spinbox.background", colours["field"]), ("*Spinbox.buttonBackground", colours["face"]),
-                           ("*Scale.troughColor", colours["pressed"]), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.roomy(2, 5)),
+                           ("*Scale.troughColor", colours["pressed"]), ("*Scale.width", style.roomy(15, 15)),
+                           ("*Scale.sliderLength", style.roomy(30, 15)), ("*Scale.length", style.px(100)), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.roomy(2, 5)),
                            # Tk's file dialogs have white lists in every theme.
                            ("*TkFDialog*Canvas.foreground", "black"), ("*TkChooseDir*Canvas.foreground", "black"),
                            ("*TCombobox*Listbox.font", "TkDefaultFont")):

@@ -276,11 +276,14 @@ def agreed(question, dialogs):
     if dialogs:
         import tkinter
         from tkinter import messagebox
+
+        from . import tkstyle
         try:
-            root = tkinter.Tk()
+            root = tkinter.Tk(className="Update_ini")
         except tkinter.TclError as e:
             raise UpdateError(f"{e}: without -d it asks on the terminal, with -f not at all") from None
         root.withdraw()
+        tkstyle.apply(root)
         answer = messagebox.askyesno("update_ini", question)
         root.destroy()
         return answer

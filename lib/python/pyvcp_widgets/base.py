@@ -75,7 +75,7 @@ def keep_readable(widget, options):
     if "foreground" not in widget.keys() or (chosen and {"fg", "foreground"} & options.keys()):
         return
     ground = brightness(widget, widget["background"])
-    if (chosen or ground < 0.5) and abs(ground - brightness(widget, widget["foreground"])) < LEAST_CONTRAST:
+    if (chosen or ground < 0.5 or tkstyle.style_of(widget).dark) and abs(ground - brightness(widget, widget["foreground"])) < LEAST_CONTRAST:
         widget.configure(foreground=ink_on(widget, widget["background"]))
 
 
@@ -85,8 +85,9 @@ def known_options(options, names):
 
 
 class Canvas(tk.Canvas):
-    """A drawing on the panel's own ground. tint() gives what has the tag ink (letters, lines) or edge (outlines) a colour
-    that can be read on it, also after the theme has changed. `unknown`: options that are not for drawings."""
+    """A drawing on the panel's own ground, in the pixels of a usual screen: it grows with the screen. tint() gives what has the
+    tag ink (letters, lines) or edge (outlines) a colour that can be read on it, also after the theme has changed. `unknown`:
+    options that are not for drawings."""
 
     def __init__(self, master, width, height, options, **defaults):
         super().__init__(master, width=width, height=height, **defaults)
@@ -95,6 +96,38 @@ class Canvas(tk.Canvas):
         self.ground = None
         if not {"bg", "background"} & options.keys() and self["background"] in (tkstyle.LIGHT["field"], tkstyle.DARK["field"]):
             self.configure(background=master["background"])
+        self.factor, self.usual_size, self.sizes = 1.0, (width, height), {}
+        self.after_idle(self.grow)           # when all is drawn
+
+    def grow(self):
+        if self.winfo_exists():
+            tkstyle.follow(self, self.resize)
+
+    def resize(self):
+        """To the scale of the screen."""
+        before, self.factor = self.factor, tkstyle.style_of(self).scale
+        change = self.factor / before
+        self.configure(width=round(self.usual_size[0] * self.factor), height=round(self.usual_size[1] * self.factor))
+        if change != 1:
+            tk.Canvas.scale(self, "all", 0, 0, change, change)      # a wheel has a pin of that name
+            for item in self.find_all():
+                if self.type(item) != "text":
+                    self.itemconfigure(item, width=float(self.itemcget(item, "width")) * change)
+        for item, points in self.sizes.items():
+            self.itemconfigure(item, font=self.letters(points))
+
+    def letters(self, points):
+        return "Helvetica", -max(round(points * 96 / 72 * self.factor), 8)
+
+    def write(self, x, y, points, **options):
+        """A text with letters of this height."""
+        item = self.create_text(x, y, font=self.letters(points), **options)
+        self.sizes[item] = points
+        return item
+
+    def coords(self, *args):
+        """Moves an item, in the pixels of a usual screen."""
+        return super().coords(args[0], *(self.factor * v for v in args[1:]))
 
     def tint(self):
         if self.ground != self["background"]:

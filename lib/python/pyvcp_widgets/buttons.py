@@ -4,10 +4,21 @@
 import tkinter as tk
 
 import hal
+from axis.icons import Icons
+from kerf import tkstyle
 
-from .base import Follower, known_options
+from .base import Follower, brightness, known_options
 
-MAX_LEGENDS = 6
+MAX_LEGENDS, ICON_PX = 6, 24
+
+
+def give_mark(button, kind, options):
+    """A mark that grows with the screen: Tk's own has the same few pixels everywhere. kind: radio or check."""
+    style = tkstyle.style_of(button)
+    if style.scale > 1 and not {"indicatoron", "image", "selectimage"} & options.keys():
+        icons = button.icons = Icons(button, style.px(ICON_PX), brightness(button, button["background"]) < 0.5)
+        button.configure(indicatoron=0, image=icons.get(f"{kind}_off"), selectimage=icons.get(f"{kind}_on"), compound="left", padx=style.px(4),
+                         borderwidth=0, relief="flat", offrelief="flat", overrelief="flat", selectcolor=button["background"])
 
 
 class Disabling:
@@ -57,6 +68,7 @@ class Checkbutton(tk.Checkbutton):
         self.change = panel.new(name + ".changepin", hal.HAL_BIT, hal.HAL_IN)
         self.asked = False
         self.pin.set(self.state.get())
+        give_mark(self, "check", options)
 
     def follow(self):
         asked = self.change.get()
@@ -81,6 +93,7 @@ class Radiobutton(tk.Frame):
         known, self.unknown = known_options(options, set(self.buttons[0].keys()) - {"text", "variable", "value"})
         for button in self.buttons:
             button.configure(**known)
+            give_mark(button, "radio", known)
             button.pack(side="left" if orient else "top", fill="x")
         self.follow()
 

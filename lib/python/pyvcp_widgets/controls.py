@@ -121,17 +121,16 @@ class Wheel(Canvas):
             self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * 0.94), fill=edge or self.ink,
                              tags=() if edge else self.ink_tags)
         self.create_oval(0, 0, 0, 0, fill=dot, tags="dot")
-        self.write(0.72, size / 18, text=text or "")
-        self.write(0.5, size / 14, tag="number")
+        self.say(0.72, size / 18, text=text or "")
+        self.say(0.5, size / 14, tag="number")
         self.bind("<ButtonPress-1>", self.grip)
         self.bind("<B1-Motion>", self.drag)
         bind_wheel(self, self.turn)
         self.show_dot()
 
-    def write(self, height, letters, tag="text", text=""):
+    def say(self, height, letters, tag="text", text=""):
         """A text in the middle; height: share from the top."""
-        self.create_text(self.middle, 2 * self.middle * height, text=text, fill=self.ink, tags=(tag, *self.ink_tags),
-                         font=("Helvetica", max(int(letters), 6)))
+        self.write(self.middle, 2 * self.middle * height, max(int(letters), 6), text=text, fill=self.ink, tags=(tag, *self.ink_tags))
 
     def at(self, angle, radius):
         """A place; angle from the top, clockwise."""
@@ -143,7 +142,7 @@ class Wheel(Canvas):
         self.coords("dot", x - r, y - r, x + r, y + r)
 
     def angle(self, event):
-        return math.atan2(event.x - self.middle, self.middle - event.y)
+        return math.atan2(event.x / self.factor - self.middle, self.middle - event.y / self.factor)
 
     def grip(self, event):
         self.last = self.angle(event)
@@ -185,7 +184,7 @@ class Dial(Wheel):
         self.first, self.value = float(initval), panel.first(name, initval)
         self.first_step = self.step = float(resolution)
         self.make(size, cpr, text, dialcolor, edgecolor, dotcolor)
-        self.write(0.35, size / 20, tag="step")
+        self.say(0.35, size / 20, tag="step")
         for button, change in ((1, lambda: self.step / 10), (2, lambda: self.first_step), (3, lambda: self.step * 10)):
             self.bind(f"<Double-Button-{button}>", lambda _, change=change: self.set_step(change()))
         self.bind("<Shift-Button-1>", lambda _: self.put(self.first))
@@ -228,7 +227,7 @@ class Jogwheel(Wheel):
         self.pin.set(self.count)
         self.make(size, cpr, text, bgcolor, "", "grey")
         self.winfo_rgb(fillcolor)
-        self.write(0.35, size / 20, tag="step")
+        self.say(0.35, size / 20, tag="step")
         self.bind("<Enter>", lambda _: self.itemconfigure("face", fill=fillcolor))
         self.bind("<Leave>", lambda _: self.itemconfigure("face", fill=bgcolor))
         if clear_pin:

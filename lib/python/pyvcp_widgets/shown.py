@@ -11,6 +11,7 @@ import hal
 from .base import Canvas, Follower, written
 
 SWEEP_RAD = 5.0         # of a meter's needle
+POINT_PX = 96 / 72
 
 
 class Lamp(Canvas):
@@ -175,11 +176,13 @@ class Meter(Ranged):
         span = self.high - self.low
         for scale, long in ((minorscale, 0.06), (majorscale if majorscale else abs(span) / 10, 0.12)):
             if scale and scale > 0 and abs(span) / scale <= 1000:
-                for n in range(int(abs(span) / scale + 1e-9) + 1):
-                    self.mark(self.low + math.copysign(n * scale, span), long)
+                values = [self.low + math.copysign(n * scale, span) for n in range(int(abs(span) / scale + 1e-9) + 1)]
+                every = self.every(values) if long > 0.1 else 0
+                for n, value in enumerate(values):
+                    self.mark(value, long, bool(every) and n % every == 0)
         for where, what, big in ((0.62, text, 8), (0.74, subtext, 6)):
             if what:
-                self.create_text(self.middle, self.middle * 2 * where, text=what, font=("Helvetica", max(int(size / 200 * big) + 4, 6)))
+                self.write(self.middle, self.middle * 2 * where, max(int(size / 200 * big) + 4, 6), text=what)
         self.create_line(0, 0, 0, 0, width=3, fill="red", tags="needle")
         self.create_oval(self.middle - 5, self.middle - 5, self.middle + 5, self.middle + 5, fill="black")
         self.create_text(self.middle, size * 0.86, tags="number")
@@ -200,11 +203,20 @@ class Meter(Ranged):
         self.create_arc(edge, edge, size - edge, size - edge, start=math.degrees(start), extent=math.degrees(end - start),
                         outline=color, style="arc", width=self.radius * 0.1)
 
-    def mark(self, value, long):
+    def every(self, values):
+        """How many marks have one number between them, so that numbers do not touch."""
+        wide = 0.7 * POINT_PX * self.mark_points() * (max(len(f"{v:g}") for v in values) + 1)
+        room = self.radius * 0.7 * SWEEP_RAD / max(len(values) - 1, 1)
+        return next(n for n in (m * 10 ** e for e in range(9) for m in (1, 2, 5)) if n * room >= wide or n > len(values))
+
+    def mark_points(self):
+        return max(int(self.middle / 12), 6)
+
+    def mark(self, value, long, named):
         angle = self.angle(value)
         self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * (1 - long)), width=2 if long > 0.1 else 1)
-        if long > 0.1:
-            self.create_text(*self.at(angle, self.radius * 0.7), text=f"{value:g}", font=("Helvetica", max(int(self.middle / 12), 6)))
+        if named:
+            self.write(*self.at(angle, self.radius * 0.7), self.mark_points(), text=f"{value:g}")
 
     def follow(self):
         if (value := self.value.changed()) is None:

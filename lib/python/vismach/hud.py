@@ -10,6 +10,7 @@ from PIL import Image, ImageDraw
 
 CELL = 9, 15            # of a letter
 FONT, SIZE = "DejaVuSansMono.ttf", 14
+EDGE = 4                # pixels above and below the lines
 MISSING = "----"        # in place of a pin's value
 
 
@@ -43,6 +44,7 @@ class Hud:
         self.hiding = []        # (pin, value) that hide everything
         self.background, self.foreground = (0, .2, 0, .5), (1, .8, .4)
         self.drawn = None, None
+        self.scale = 1.0        # of letters
 
     def show(self, string=None):
         self.showme = 1
@@ -92,13 +94,13 @@ class Hud:
     def picture(self, texts):
         """RGBA, as it is drawn."""
         colors = [tuple(round(255 * v) for v in c) for c in (self.background, self.foreground)]
-        wide, tall = CELL
-        image = Image.new("RGBA", (wide * (max(map(len, texts)) + 2), tall * len(texts) + 8), colors[0])
+        wide, tall, size, edge = (round(v * self.scale) for v in (*CELL, SIZE, EDGE))
+        image = Image.new("RGBA", (wide * (max(map(len, texts)) + 2), tall * len(texts) + 2 * edge), colors[0])
         pen = ImageDraw.Draw(image)
-        font = imagefont.load(FONT, SIZE)
+        font = imagefont.load(FONT, size)
         for row, text in enumerate(texts):
             for column, letter in enumerate(text):
-                pen.text((wide * (column + 1), 4 + tall * row), imagefont.drawable(font, letter), font=font, fill=colors[1] + (255,))
+                pen.text((wide * (column + 1), edge + tall * row), imagefont.drawable(font, letter), font=font, fill=colors[1] + (255,))
         return image
 
     def draw(self, height):

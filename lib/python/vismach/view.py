@@ -9,7 +9,7 @@ import tkinter as tk
 
 import hal
 import numpy as np
-from kerf import gl
+from kerf import gl, tkfit, tkstyle
 from OpenGL import GL, GLU
 
 from .hud import Hud
@@ -19,6 +19,7 @@ REDRAW_MS = 100
 MAX_TRACE = 16000
 TRACE_COLOR, TRACE_WIDTH = (1, .5, .5), 2
 BACKGROUND = 0.08, 0.1, 0.14, 1
+SIZE_PX = 600           # of the window, on a usual screen
 FIELD_DEG = 30          # of view
 ZOOM_STEP = 1.1
 MIN_ZOOM, MAX_ZOOM = 0.02, 50
@@ -82,12 +83,12 @@ class Trace:
     def clear(self):
         self.points.clear()
 
-    def draw(self, work):
+    def draw(self, work, width=TRACE_WIDTH):
         if len(self.points) < 2:
             return
         GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_CURRENT_BIT | GL.GL_LINE_BIT)
         GL.glDisable(GL.GL_LIGHTING)
-        GL.glLineWidth(TRACE_WIDTH)
+        GL.glLineWidth(width)
         GL.glColor3d(*TRACE_COLOR)
         GL.glPushMatrix()
         GL.glLoadMatrixd(np.ascontiguousarray(work.t.T))
@@ -103,9 +104,11 @@ class View:
     """The picture in a frame. Raises RuntimeError where there is no OpenGL."""
 
     def __init__(self, root, model, tool, work, size, hud, lat, lon, vectors=None):
+        self.scale = hud.scale = tkstyle.screen_scale(root)
         self.model, self.tool, self.work, self.hud = model, tool, work, hud
         self.camera, self.trace = Camera(size, lat, lon, vectors), Trace(size)
-        self.frame = gl.Frame(root, width=600, height=600)
+        side = min(round(SIZE_PX * self.scale), *tkfit.room_of(root))
+        self.frame = gl.Frame(root, width=side, height=side)
         self.frame.pack(fill="both", expand=True)
         self.frame.open(classic=True)
         self.mouse = None
@@ -156,7 +159,7 @@ class View:
         self.camera.apply(width, height)
         visit(self.model)
         self.trace.add(self.tool, self.work)
-        self.trace.draw(self.work)
+        self.trace.draw(self.work, TRACE_WIDTH * self.scale)
         self.hud.draw(height)
 
     def redraw(self):

@@ -13,7 +13,7 @@ printf 'setp siggen.0.frequency [JOINT_0]F\nsetp siggen.0.amplitude [JOINT_0]AMP
 looks=${LOOKS:-1024x600 de:1:dark long:1:light long:2:dark:touch,1366x768 de:1.5:dark long:1:light:touch,3840x2160 fr::dark long:3:light}
 while read -rd, size rest; do
     echo "== $size"
-    timeout 250 ../../lib/with-display "$size" /usr/bin/python3 windows.py $rest
+    timeout ${LOOKS:+3}250 ../../lib/with-display "$size" /usr/bin/python3 windows.py $rest || echo "    ended with $?"
 done <<< "$looks,"
 if [ -z "${LOOKS:-}" ]; then
     echo '== what is the same in every language'
