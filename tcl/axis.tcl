@@ -240,31 +240,31 @@ proc ::axis::build_view_menu {} {
     menu $m.grid -tearoff 1
     add $m cascade "_Grid" -menu $m.grid
     foreach {text name} {
-        "Show o_ffsets" show_offsets "Show mac_hine limits" show_machine_limits
-        "Show v_elocity" show_machine_speed "Show _distance to go" show_distance_to_go
+        "Show offs_ets" show_offsets "Show machine limits" show_machine_limits
+        "Show _velocity" show_machine_speed "Show _distance to go" show_distance_to_go
         "Large coordinate fo_nt" dro_large_font
     } { add $m checkbutton $text -variable $name -command toggle_$name }
     add $m command "_Clear live plot" -accelerator Ctrl-K -command clear_live_plot
     add $m checkbutton "Show P_yVCP panel" -variable show_pyvcppanel -accelerator Ctrl-E -command toggle_show_pyvcppanel
     $m add separator
-    add $m radiobutton "Show commande_d position" -variable display_type -value 1 -accelerator @ -command redraw
-    add $m radiobutton "Show actual positio_n" -variable display_type -value 0 -accelerator @ -command redraw
+    add $m radiobutton "Show commanded position" -variable display_type -value 1 -accelerator @ -command redraw
+    add $m radiobutton "Show actual position" -variable display_type -value 0 -accelerator @ -command redraw
     $m add separator
     add $m radiobutton "Show machine position" -variable coord_type -value 0 -accelerator # -command redraw
     add $m radiobutton "Show relative position" -variable coord_type -value 1 -accelerator # -command redraw
     $m add separator
     add $m radiobutton "_Joint mode" -variable teleop_mode -value 0 -accelerator \$ -command set_teleop_mode
-    add $m radiobutton "W_orld mode" -variable teleop_mode -value 1 -accelerator \$ -command set_teleop_mode
+    add $m radiobutton "World mode" -variable teleop_mode -value 1 -accelerator \$ -command set_teleop_mode
 }
 
 # What Kerf adds, behind the documented entries.
 proc ::axis::add_looks_menu {scales} {
     set m .menu.view
     $m add separator
-    add $m checkbutton "Dar_k theme" -variable dark_theme -command ::axis::dark_theme
-    add $m checkbutton "Large to_uch targets" -variable large_touch_targets -command ::axis::large_touch_targets
+    add $m checkbutton "Dark theme" -variable dark_theme -command ::axis::dark_theme
+    add $m checkbutton "Large touch targets" -variable large_touch_targets -command ::axis::large_touch_targets
     menu $m.size -tearoff 0
-    add $m cascade "Si_ze of the interface" -menu $m.size
+    add $m cascade "Size of the interface" -menu $m.size
     foreach scale $scales {
         set label [expr {$scale == 0 ? [_ "As the screen needs"] : "[expr {round(100 * $scale)}] %"}]
         $m.size add radiobutton -label $label -variable interface_scale -value $scale -command ::axis::interface_scale

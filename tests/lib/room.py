@@ -9,6 +9,7 @@ Each trouble is a line "path: what". Looked for:
   hidden    a widget or a text of a canvas lies outside of what holds it, and nothing scrolls there
   overlap   two widgets of one holder, or two texts of one canvas, lie over each other
   screen    a window or a menu is larger than the screen
+  focus     a dialog's button does not show that the keyboard presses it
   contrast  letters and ground differ by less than 4.5 (WCAG 2.1), unless disabled
   small     with `touch`: something to press is lower than that many pixels
 """
@@ -19,7 +20,7 @@ from types import SimpleNamespace
 
 PARKED = -40                # of a canvas: what lies above that is only measured there (BWidget)
 SLACK = 1                   # pixels that nobody sees
-CONTRAST = 4.5
+CONTRAST, SEEN = 4.5, 3.0     # of letters, of lines
 CLASSIC = ("Label", "Button", "Checkbutton", "Radiobutton", "Menubutton", "Message")
 THEMED = ("TLabel", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton")
 FIELDS = ("Entry", "Spinbox", "TEntry", "TSpinbox", "TCombobox")
@@ -171,9 +172,11 @@ class Look:
             self.tell(path, "hidden", f"{box} in {visible}")
         if kind in CLASSIC + THEMED:
             self.text(path, kind, width, height)
+            if kind == "Button" and str(self.call("winfo", "class", self.call("winfo", "toplevel", path))) == "Dialog":
+                self.focus(path)
         elif kind in FIELDS:
             self.field(path, kind, width, height)
-        elif kind == "Canvas":
+        elif kind == "Canvas" and str(self.call("winfo", "class", path.rpartition(".")[0] or ".")) != "Togl":      # the preview's picture
             self.canvas(path, width, height)
         elif kind == "Treeview":
             self.tree(path, width)
@@ -320,6 +323,12 @@ class Look:
             self.tell(path, "screen", f"menu of {width}x{height} on {self.screen[0]}x{self.screen[1]}")
         for child in map(str, self.listed(self.call("winfo", "children", path))):
             self.menu(child)
+
+    def focus(self, path):
+        """A button that the keyboard may press shows when it would."""
+        if self.option(path, "takefocus") != "0" and not (self.whole(path, "highlightthickness") and contrast(
+                *(self.rgb(self.option(path, name)) for name in ("highlightcolor", "highlightbackground"))) >= SEEN):
+            self.tell(path, "focus", "nobody sees whether the keyboard presses it")
 
     # -- colours --------------------------------------------------------------------------
 

@@ -10,6 +10,7 @@ from kerf.numbertext import with_point
 
 CURRENT = N_("Current")
 SYSTEMS = ("P0  Current", "P1  G54", "P2  G55", "P3  G56", "P4  G57", "P5  G58", "P6  G59", "P7  G59.1", "P8  G59.2", "P9  G59.3")
+FOCUS_PX = 2             # around the button that the keyboard presses
 MOST_LINES = 20          # of a question; more are scrolled
 
 
@@ -30,7 +31,7 @@ def colour(root, name):
 
 
 def button(row, text, command):
-    made = tk.Button(row, text=text, width=max(10, len(text)), command=command)
+    made = tk.Button(row, text=text, width=max(10, len(text)), command=command, highlightthickness=FOCUS_PX)
     made.pack(side="left", padx=6)
     return made
 

@@ -329,10 +329,9 @@ class OpeningPart:
         return self.code.line_text(line)
 
     def show_title(self):
-        version = Tree.find().version()
-        name = os.path.basename(self.loaded_file) if self.loaded_file else None
-        self.root.title(f"{name} - AXIS {version} on {self.settings.machine}" if name else
-                        f"AXIS {version} on {self.settings.machine} (no file)")
+        screen = Tree.find().version(), self.settings.machine
+        self.root.title(self.translate("%s - AXIS %s on %s") % (os.path.basename(self.loaded_file), *screen) if self.loaded_file else
+                        self.translate("AXIS %s on %s (no file)") % screen)
 
     def set_highlight_line(self, line):
         line = int(line) if line and int(line) > 0 else -1

@@ -21,10 +21,13 @@ MOST_OF_SCREEN = 0.8        # for the picture of the start
 
 def fitting(root, picture):
     """The picture as large as the screen's scale says, and no larger than the greater part of it."""
+    found = tk.PhotoImage(file=picture)
+    size, screen = (found.width(), found.height()), (root.winfo_screenwidth(), root.winfo_screenheight())
+    factor = min(tkstyle.screen_scale(root), *(MOST_OF_SCREEN * most / side for most, side in zip(screen, size)))
+    if factor == 1:
+        return found
     from PIL import Image
-    screen = root.winfo_screenwidth(), root.winfo_screenheight()
     with Image.open(picture) as image:
-        factor = min(tkstyle.screen_scale(root), *(MOST_OF_SCREEN * most / side for most, side in zip(screen, image.size)))
         data = io.BytesIO()
         image.convert("RGBA").resize([max(1, round(side * factor)) for side in image.size], Image.LANCZOS).save(data, "PNG")
     return tk.PhotoImage(data=data.getvalue())

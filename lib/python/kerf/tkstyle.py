@@ -75,8 +75,20 @@ def wants_touch():
     return given != "0" if given else remembered("large_touch_targets", "getboolean", False)
 
 
+def desktop_dpi():
+    """What a desktop wants letters to be drawn for (X resource Xft.dpi: dots per inch); 0 where none said it."""
+    try:
+        reader = tk.Tk(baseName="Xft", className="Xft")         # resources are found by the name of a program
+        reader.withdraw()
+        found = reader.option_get("dpi", "Dpi")
+        reader.destroy()
+        return float(found or 0)
+    except (tk.TclError, ValueError):
+        return 0.0
+
+
 def screen_scale(root):
-    """1 on a usual screen; more where pixels are small, by its resolution or its size in pixels."""
+    """1 on a usual screen; more where pixels are small: by its resolution, by its size in pixels, or as the desktop is set."""
     try:
         given = float(os.environ.get("KERF_SCALE") or remembered("interface_scale", "getfloat", 0.0))
     except ValueError:
@@ -85,7 +97,7 @@ def screen_scale(root):
         return min(max(given, 1.0), MAX_SCALE)
     by_density = getattr(root, "kerf_density", root.winfo_fpixels("1i") / 96)
     by_height = root.winfo_screenheight() / 1080 if root.winfo_screenheight() > 1200 else 1.0
-    return min(max(by_density, by_height, 1.0), MAX_SCALE)
+    return min(max(by_density, by_height, desktop_dpi() / 96, 1.0), MAX_SCALE)
 
 
 def style_of(widget):
@@ -104,7 +116,7 @@ def _tell_scale(root, style):
     """Lengths in points and millimetres, and drawings, have the scale, too."""
     if not hasattr(root, "kerf_density"):
         root.kerf_density = root.winfo_fpixels("1i") / 96
-    root.tk.call("tk", "scaling", max(style.scale, root.kerf_density if style.scale == 1 else 1.0) * 96 / 72)
+    root.tk.call("tk", "scaling", (style.scale if style.scale > 1 else min(root.kerf_density, 1.0)) * 96 / 72)
     for widget, resize in getattr(root, "kerf_followers", ()):
         if widget.winfo_exists():
             resize()
@@ -136,7 +148,7 @@ def _options(root, colours, style):
     for pattern, value in (("*Font", "TkDefaultFont"), ("*Text.Font", "TkFixedFont"), ("*background", colours["face"]),
                            ("*foreground", colours["ink"]), ("*activeBackground", colours["pressed"]),
                            ("*activeForeground", colours["ink"]), ("*disabledForeground", colours["off"]),
-                           ("*highlightThickness", 0), ("*Entry.background", colours["field"]), ("*Text.background", colours["field"]),
+                           ("*highlightThickness", 0), ("*highlightColor", colours["select"]), ("*highlightBackground", colours["face"]), ("*Entry.background", colours["field"]), ("*Text.background", colours["field"]),
                            ("*Listbox.background", colours["field"]), ("*Canvas.background", colours["field"]),
                            ("*selectBackground", colours["select"]), ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
                            ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),

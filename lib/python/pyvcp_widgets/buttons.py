@@ -4,7 +4,6 @@
 import tkinter as tk
 
 import hal
-from axis.icons import Icons
 from kerf import tkstyle
 
 from .base import Follower, brightness, known_options
@@ -16,6 +15,7 @@ def give_mark(button, kind, options):
     """A mark that grows with the screen: Tk's own has the same few pixels everywhere. kind: radio or check."""
     style = tkstyle.style_of(button)
     if style.scale > 1 and not {"indicatoron", "image", "selectimage"} & options.keys():
+        from axis.icons import Icons
         icons = button.icons = Icons(button, style.px(ICON_PX), brightness(button, button["background"]) < 0.5)
         button.configure(indicatoron=0, image=icons.get(f"{kind}_off"), selectimage=icons.get(f"{kind}_on"), compound="left", padx=style.px(4),
                          borderwidth=0, relief="flat", offrelief="flat", overrelief="flat", selectcolor=button["background"])

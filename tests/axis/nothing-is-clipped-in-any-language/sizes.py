@@ -73,6 +73,20 @@ DIALOGS = {
 LIMITS = [f"Program exceeds machine maximum on axis {c}" for c in "XYZABCUVW"] * 3
 
 
+def same_letters(tcl, menu):
+    """Entries of a menu, and of those below it, that are chosen by the same underlined letter."""
+    last, found = str(tcl.call(menu, "index", "end")), {}
+    for n in range(int(last) + 1 if last not in ("none", "") else 0):
+        if str(tcl.call(menu, "type", n)) in ("separator", "tearoff"):
+            continue
+        text, at = str(tcl.call(menu, "entrycget", n, "-label")), int(str(tcl.call(menu, "entrycget", n, "-underline")))
+        if at >= 0:
+            found.setdefault(text[at:at + 1].lower(), []).append(text)
+    for child in map(str, tcl.splitlist(tcl.call("winfo", "children", menu))):
+        yield from same_letters(tcl, child)
+    yield from (f"{menu}: {letter}: {texts}" for letter, texts in found.items() if len(texts) > 1)
+
+
 def many_messages(op, looker, name, touch):
     """More than there is room for, one without an end: the newest is seen, the tool bar and the readout are, and all can be closed."""
     shown, root = op.app.notifications, op.root
@@ -102,6 +116,8 @@ def script(op):
     print("screen:", op.root.winfo_screenheight(), "title of the left tab:", op.root.tk.call(".pane.top.tabs", "itemcget", "manual", "-text"))
     op.power_on()
     op.home()
+    for line in same_letters(op.root.tk, ".menu"):
+        print("    ", line)
     for words in os.environ["LOOKS"].split():
         _, scale, theme, *touch = words.split(":")
         app.set_dark(theme == "dark")

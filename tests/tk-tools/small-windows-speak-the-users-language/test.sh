@@ -1,5 +1,5 @@
 #!/bin/bash
-# Every text of a small window can be translated and is, in each language; what the operator must read at a tool change and in the tool table, in the languages there are; a language without a catalogue reads English.
+# Every text of a window can be translated and is, in each language; what the operator must read at a tool change and in the tool table, in the languages there are; a language without a catalogue reads English.
 for language in C de fr xx; do
     LANGUAGE=$language LANG=C.UTF-8 PYTHONPATH="$TEST_DIR/../../../lib/python" /usr/bin/python3 -B - <<'PY'
 from kerf.language import _
@@ -20,6 +20,8 @@ def make(root, count):
         ttk.Button(root, text=_(text), command=action)
 PY
 "$strings" --unmarked window.py
+printf 'wm title $w "AXIS on $machine"\nlabel $f.a -text [_ "Marked"]\nlabel $f.b -text "Forgotten $n"\nbutton $f.c -text + -command go\n' > window.tcl
+"$strings" --unmarked window.tcl
 printf 'msgid "Cancel"\nmsgstr "Abbrechen"\n\nmsgid "Gone"\nmsgstr "Weg"\n\nmsgid "Saved %%s"\nmsgstr "Gespeichert"\n' > part.po
 "$strings" --check part.po | grep -E "'(Cancel|Gone|Quit|Saved %s)'"
-rm window.py part.po
+rm window.py window.tcl part.po
