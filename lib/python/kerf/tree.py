@@ -2,6 +2,7 @@
 """Where the programs, modules and data of this build are: run in place or installed."""
 
 import os
+import re
 import shutil
 import site
 import sys
@@ -57,13 +58,13 @@ class Tree:
 
     def version(self):
         """Version text, as configure wrote it."""
-        for name in (self.home / "Makefile.inc", self.share / "Makefile.modinc"):
+        for path in (self.home / "src/config.h", self.share / "config.h"):
             try:
-                for line in name.read_text().splitlines():
-                    if line.startswith("VERSION"):
-                        return line.split("=", 1)[1].strip()
+                found = re.search(r'^#define PACKAGE_VERSION "(.*)"', path.read_text(), re.MULTILINE)
             except OSError:
-                pass
+                continue
+            if found:
+                return found[1]
         return "unknown"
 
     def prefer_own_python(self, env):

@@ -20,6 +20,7 @@ for f in "$root"/usr/share/applications/*.desktop; do
     program=$(sed -n 's/^Exec=//p' "$f")
     [ -x "$root/usr/bin/$program" ] || echo "$f: no program $program"
 done
+[ "$("$root/usr/bin/linuxcnc_var" LINUXCNCVERSION)" = "$("$top/scripts/linuxcnc_var" LINUXCNCVERSION)" ] || echo "another version is told"
 # Nothing of this tree may help: only the installed one is on the paths.
 env -i HOME="$HOME" PATH="/usr/bin:/bin" KERF_INSTANCE="${KERF_INSTANCE:-inst}" \
     "$root/usr/bin/kerf-run" --picture "$root/p.png" "$root/usr/share/linuxcnc/ncfiles/bracket.ngc" > "$root/text"
