@@ -11,6 +11,8 @@ import socket
 import struct
 import sys
 
+import modbus_device
+
 PORT = 27181
 CYCLE_NS = 1_000_000
 CLOCK_LOW, CLOCK_HIGH = 100_000_000, 200_000_000
@@ -26,6 +28,7 @@ ENCODER_INPUTS = 0xF1C0     # of encoder 0: bits that its status shows besides (
 INPUTS = 0xF200             # levels at the pins of each port
 CARD_FAULTS = 0xF300        # next so many transfers of smart-serial cards fail: at 0xF304 channels, 0xF308 their status
 CARD_STATUS, CARD_COUNT, CARD_LATE = 0xF30C, 0xF310, 0xF314  # status always; counter of the card's encoder; not done
+MODBUS_DAMAGED, MODBUS_SILENT = 0xF400, 0xF404    # next so many answers of the Modbus device are wrong, do not come
 LEVELS = 0xF240             # what the pins of each port drive: value, and at LEVELS + 0x20 which of them do
 
 
@@ -251,7 +254,13 @@ class Registers:
 
     def __init__(self):
         self.memory = bytearray(0x10000)
-        self.on_write = {}
+        self.on_write, self.on_read = {}, {}
+
+    def read(self, addr, size):
+        for at in range(addr, addr + size, 4):
+            if at in self.on_read:
+                self.put(at, self.on_read[at]())
+        return self.memory[addr:addr + size]
 
     def get(self, addr):
         return struct.unpack_from('<I', self.memory, addr)[0]
@@ -379,6 +388,39 @@ class Encoder:
         self.control &= ~0x10
 
 
+class FrameChannel:
+    """PktUART 0 with a Modbus device at address 5, whose answers are there at once."""
+    TX, RX, ADDRESS = 0x8000, 0x8800, 5
+
+    def __init__(self, registers):
+        self.r = registers
+        self.device = modbus_device.Device()
+        self.out, self.frames, self.words = b'', [], []
+        registers.on_write[self.TX] = lambda value: setattr(self, 'out', self.out + value.to_bytes(4, 'little'))
+        registers.on_write[self.TX + 0x100] = self.send
+        registers.on_write[self.RX + 0x300] = self.set_mode
+        registers.on_read[self.RX] = lambda: self.words.pop(0) if self.words else 0
+        registers.on_read[self.RX + 0x100] = lambda: self.frames.pop(0) if self.frames else 0
+        registers.on_read[self.RX + 0x300] = lambda: len(self.frames) << 16
+
+    def set_mode(self, value):
+        if value == 0x80010000:
+            self.frames, self.words = [], []
+
+    def send(self, size):
+        frame, self.out = self.out[:size], b''
+        self.r.put(PACKETS + 4, self.r.get(PACKETS + 4) + 1)
+        if frame[0] != self.ADDRESS or modbus_device.crc(frame[:-2]) != frame[-2:] or self.r.take(MODBUS_SILENT):
+            return
+        answer = frame[:1] + self.device.answer(frame[1:-2])
+        answer += modbus_device.crc(answer)
+        if self.r.take(MODBUS_DAMAGED):
+            answer = answer[:-1] + bytes([answer[-1] ^ 1])
+        self.frames.append(len(answer))
+        answer += bytes(-len(answer) % 4)
+        self.words += struct.unpack(f'<{len(answer) // 4}I', answer)
+
+
 class Board:
     NAME_LEN = 16
 
@@ -395,6 +437,7 @@ class Board:
         self.stepgens = StepGens(r, 4)
         self.encoders = [Encoder(r, unit) for unit in range(2) if {4, 12} & set(tags)]
         self.card_port = None
+        self.frame_channel = FrameChannel(r) if 27 in tags else None
         self.ticks = 0.0
 
     def write_identity(self, name, modules, pins, port_width, stride):
@@ -427,7 +470,7 @@ class Board:
             self.card_port.step()
 
     def memory_of(self, space):
-        return {0: self.registers.memory, 2: self.eeprom, 4: self.timers, 6: self.status, 7: self.info}.get(space)
+        return {2: self.eeprom, 4: self.timers, 6: self.status, 7: self.info}.get(space)
 
     def write(self, space, addr, data, deaf):
         if space == 0:
@@ -458,7 +501,7 @@ class Board:
             else:
                 reads.append((space, addr, size))
         for space, addr, size in reads:
-            reply += bytes(self.memory_of(space)[addr:addr + size])
+            reply += bytes(self.registers.read(addr, size) if space == 0 else self.memory_of(space)[addr:addr + size])
         if not reads or deaf or r.take(LOSE):
             return None
         return reply[:-1] if r.take(CUT) else reply

@@ -29,11 +29,9 @@ peek 0x7310
 peek 0x7A10
 peek 0x701C
 peek 0x7010
-say frames: bit rates, modes, last word and count
+say frames: bit rates, mode of sending, frames that were sent
 peek 0x8200
 peek 0x8300
 peek 0x8A00
-peek 0x8B00
-peek 0x8000
-peek 0x8100
+peek 0xF024
 END

@@ -3,5 +3,7 @@
 # driver of its name.
 HM2_DIR := src/hal/drivers/mesa-hostmot2
 $(eval $(call rtmodule,hostmot2,$(filter-out $(HM2_DIR)/hm2_%,$(wildcard $(HM2_DIR)/*.c))))
-$(foreach b,hm2_test hm2_eth hm2_pci,$(eval $(call rtmodule,$(b),$(wildcard $(HM2_DIR)/$(b).c $(HM2_DIR)/$(b)_*.c))))
+hm2_parts = $(wildcard $(HM2_DIR)/$(1).c $(HM2_DIR)/$(1)_*.c)
+$(foreach b,hm2_test hm2_eth hm2_pci hm2_modbus,$(eval $(call rtmodule,$(b),$(call hm2_parts,$(b)))))
 $(foreach b,hm2_spi hm2_spix,$(eval $(call rtmodule,$(b),$(HM2_DIR)/$(b).c $(HM2_DIR)/hm2_spi_link.c)))
+$(eval $(call script,mesambccc,$(HM2_DIR)/mesambccc.py))
