@@ -3,7 +3,7 @@
 # pins drive its registers; boards that do not answer, are unknown or damaged in transfer are told, and io_error stops all.
 top=$(cd ../../.. && pwd)
 rtlib=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
-trap 'rm -f kerf_*.c t.hal told "$rtlib"/kerf_{slot,bus,busx}.so' EXIT
+trap 'rm -f kerf_*.c t.hal told "$rtlib"/kerf_{slot,bus,busx,port}.so' EXIT
 build() { # module source driver
     { echo "#define DRIVER \"src/hal/drivers/mesa-hostmot2/$3\""; cat "$2"; } > "$1.c"
     EXTRA_CFLAGS="-I$top -I$top/src/hal -I$top/src/hal/drivers/mesa-hostmot2" halcompile --install "$1.c" >&2 || exit 1
@@ -65,3 +65,18 @@ for words in spi_probe=0 force_driver=spix_rpi5; do
     printf 'loadrt hostmot2\nloadrt kerf_busx %s\n' $words > t.hal
     run | grep -v unload
 done
+echo "a parallel port"
+build kerf_port epp.c hm2_7i90.c
+drive kerf_port hm2_7i90.0 "config=enable_raw ioaddr=0x378"
+cat >> t.hal <<END
+setp hm2_7i90.0.raw.write_address 0x7000
+setp hm2_7i90.0.raw.write_data 1
+setp hm2_7i90.0.raw.write_strobe 1
+loadusr -w kerf-clock sleep 0.01
+getp hm2_7i90.0.io_error
+END
+run | grep -v 'IO Pin'
+drive kerf_port hm2_7i90.0 "config=enable_raw ioaddr=0x378 narrow=1"
+run | grep -v 'IO Pin'
+drive kerf_port hm2_7i90.0 "ioaddr=1"
+run | grep insmod
