@@ -470,6 +470,8 @@ class Board:
             self.card_port.step()
 
     def memory_of(self, space):
+        if space >= 8:
+            return struct.pack('<HHHH8s', 0x5A00 | space & 7, 0x0104 if space == 8 else 0x0102, 0x10, 0, b'HostMot2')
         return {2: self.eeprom, 4: self.timers, 6: self.status, 7: self.info}.get(space)
 
     def write(self, space, addr, data, deaf):
@@ -495,6 +497,8 @@ class Board:
             command, addr = struct.unpack_from('<HH', packet, at)
             at += 4
             space, size = command >> 10 & 7, (command & 0x7F) << (command >> 8 & 3)
+            if command & 0x2000:
+                space += 8
             if command & 0x8000:
                 self.write(space, addr, packet[at:at + size], deaf)
                 at += size
