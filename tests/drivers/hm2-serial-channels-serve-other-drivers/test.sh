@@ -35,3 +35,21 @@ peek 0x8300
 peek 0x8A00
 peek 0xF024
 END
+echo "bytes as pins"
+../../lib/with-hm2-board -f uart <<'END'
+stop
+loadrt mesa_uart names=%.uart.0
+addf %.uart.0.receive servo 2
+addf %.uart.0.send servo 3
+setp %.uart.0.tx-data-00 0x41
+setp %.uart.0.tx-data-01 0x42
+setp %.uart.0.tx-bytes 2
+start
+peek 0x7004
+poke 0x7900 3
+poke 0x7808 0x636261
+wait 0.003
+get %.uart.0.rx-bytes
+get %.uart.0.rx-data-00
+get %.uart.0.rx-data-02
+END

@@ -152,7 +152,7 @@ struct hm2 {
 };
 
 #define HM2_ERR(hm2, fmt, ...) rtapi_print_msg(RTAPI_MSG_ERR, "hm2/%s: " fmt, (hm2)->io->name, ##__VA_ARGS__)
-#define HM2_WARN(hm2, fmt, ...) rtapi_print_msg(RTAPI_MSG_WARN, "hm2/%s: " fmt, (hm2)->io->name, ##__VA_ARGS__)
+#define HM2_WARN(hm2, fmt, ...) rtapi_print_msg(RTAPI_MSG_ERR, "hm2/%s: " fmt, (hm2)->io->name, ##__VA_ARGS__)
 #define HM2_PRINT(hm2, fmt, ...) rtapi_print("hm2/%s: " fmt, (hm2)->io->name, ##__VA_ARGS__)
 
 /* ---- Names in HAL [init] -------------------------------------------------- */

@@ -69,7 +69,7 @@ static int guess_model(struct eth_board *b, const char *name, struct eth_model *
 {
     rtapi_u32 offset = 0, ports = 0, width = 0;
     int i;
-    rtapi_print_msg(RTAPI_MSG_WARN, "Unrecognized ethernet board found: %.16s -- port names will be wrong\n", name);
+    rtapi_print_msg(RTAPI_MSG_ERR, "Unrecognized ethernet board found: %.16s -- port names will be wrong\n", name);
     COMP_TRY(eth_read_space(b, SPACE_HM2, ADDR_IDROM_OFFSET, &offset, 1, 4));
     offset &= 0xFFFF;
     COMP_TRY(eth_read_space(b, SPACE_HM2, offset + IDROM_IO_PORTS, &ports, 1, 4));

@@ -77,7 +77,7 @@ void eth_set_arp(struct eth_board *b)
     if(b->loopback) return;
     b->arp_set = arp_request(b, SIOCSARP) == 0;
     if(!b->arp_set)
-        rtapi_print_msg(RTAPI_MSG_WARN,
+        rtapi_print_msg(RTAPI_MSG_ERR,
                         "hm2_eth: WARNING: cannot fix the hardware address of %s (%s): a packet is late "
                         "now and then; `sudo make setcap` gives the right\n", b->ip, strerror(errno));
 }
@@ -229,7 +229,7 @@ void eth_firewall_start(const char *how, struct eth_board *const *boards, int n)
     if(active == FIREWALL_IPTABLES && start_iptables(boards, n) == 0) return;
     if(active == FIREWALL_NFT && start_nft(boards, n) == 0) return;
     if(strcmp(how, "none"))
-        rtapi_print_msg(RTAPI_MSG_WARN,
+        rtapi_print_msg(RTAPI_MSG_ERR,
                         "hm2_eth: WARNING: Unable to restrict other access to the boards' network: keep "
                         "other programs off it yourself\n");
 }

@@ -9,3 +9,4 @@ $(foreach b,hm2_spi hm2_spix,$(eval $(call rtmodule,$(b),$(HM2_DIR)/$(b).c $(HM2
 $(eval $(call script,mesambccc,$(HM2_DIR)/mesambccc.py))
 $(foreach b,hm2_7i43 hm2_7i90,$(eval $(call rtmodule,$(b),$(HM2_DIR)/$(b).c $(HM2_DIR)/hm2_epp_link.c)))
 $(eval $(call script,elbpcom,$(HM2_DIR)/elbpcom.py))
+$(eval $(call rtmodule,mesa_uart,$(HM2_DIR)/hm2_mesa_uart.c))
