@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """History of MDI commands, one a line in a file. No widgets here."""
 
-import os
+import sys
 from pathlib import Path
+
+from kerf import files
 
 MOST = 1000
 
@@ -13,7 +15,10 @@ class MdiHistory:
     def __init__(self, path):
         self.path = Path(path).expanduser()
         try:
-            self.lines = [line for line in self.path.read_text(errors="replace").splitlines() if line][-MOST:]
+            text = self.path.read_text(errors="replace")
+            if "\ufffd" in text or "\0" in text:
+                print(f"axis: {self.path}: some of it is no text", file=sys.stderr)
+            self.lines = [line for line in text.replace("\0", "").splitlines() if line][-MOST:]
         except OSError:
             self.lines = []
         self.at = len(self.lines)
@@ -34,9 +39,7 @@ class MdiHistory:
         self.save()
 
     def save(self):
-        new = self.path.with_name(self.path.name + ".new")
         try:
-            new.write_text("".join(line + "\n" for line in self.lines))
-            os.replace(new, self.path)
+            files.replace(self.path, "".join(line + "\n" for line in self.lines))
         except OSError as e:
             print(f"axis: MDI history is not kept: {e}")

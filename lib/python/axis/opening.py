@@ -144,6 +144,15 @@ class OpeningPart:
         self.code.load(self.kept, self.beside(line_starts, self.kept))
         self.read_preview()
         self.show_title()
+        self.mark_cut_off()
+
+    def mark_cut_off(self):
+        """The line at which the last run was cut off, in the program of that run."""
+        s = self.stat
+        if s.cut_off_line > 0 and os.path.realpath(s.cut_off_file) in (os.path.realpath(f) for f in (self.loaded_file, self.shown_file)):
+            self.set_highlight_line(s.cut_off_line)
+            self.notifications.add("info", self.translate("The last run was cut off at line %d, which is marked. Home the machine, then start at the selected line: "
+                                                          "each item is shown before anything moves.") % s.cut_off_line)
         self.loading = False
         self.keep_record(True)
 

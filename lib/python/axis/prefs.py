@@ -3,8 +3,12 @@
 
 import ast
 import configparser
+import io
 import os
+import sys
 from pathlib import Path
+
+from kerf import files
 
 MAX_RECENT = 10
 
@@ -12,7 +16,7 @@ MAX_RECENT = 10
 class Preferences:
     """Values by name; a missing one is written with its default when first asked for.
 
-    A damaged file is kept beside the new one as .axis_preferences.bad; `damaged` says so then, else None.
+    A damaged file is kept as .axis_preferences.bad, and what .axis_preferences.bak keeps is taken; `damaged` says so then, else None.
     """
 
     def __init__(self, path=None):
@@ -20,8 +24,13 @@ class Preferences:
         self.values, self.damaged = configparser.RawConfigParser(), None
         try:
             self.values.read(self.path)
-        except (configparser.Error, UnicodeDecodeError):
-            self.values = configparser.RawConfigParser()
+            if self.path.is_file() and not self.path.read_text().strip():
+                raise configparser.Error("it is empty")
+        except (configparser.Error, UnicodeDecodeError) as e:
+            line = getattr(e, "lineno", None) or next((at for at, _ in getattr(e, "errors", ())), None)
+            what = f"{self.path}:{line}: no preference" if line else f"{self.path}: {e}"
+            print(f"axis: {what}; the file is kept with .bad behind its name", file=sys.stderr)
+            self.values = self.kept()
             self.damaged = self.path.with_name(self.path.name + ".bad")
         except OSError as e:
             print(f"axis: {self.path}: {e.strerror}")
@@ -30,6 +39,15 @@ class Preferences:
                 os.replace(self.path, self.damaged)
         except OSError as e:
             print(f"axis: {self.path}: {e.strerror}")
+
+    def kept(self):
+        """The values of the last version but one, as far as they can be read."""
+        values = configparser.RawConfigParser()
+        try:
+            values.read(self.path.with_name(self.path.name + ".bak"))
+        except (configparser.Error, UnicodeDecodeError, OSError):
+            return configparser.RawConfigParser()
+        return values
 
     def getpref(self, option, default=False, kind=bool):
         """Value of an option as `kind` (bool, float, int, str; repr: a Python literal)."""
@@ -47,13 +65,10 @@ class Preferences:
     def putpref(self, option, value, kind=bool):
         """Keeps a value; the file is written at once and never half."""
         self.values.set("DEFAULT", option, repr(value) if kind is repr else str(kind(value)))
-        new = self.path.with_name(self.path.name + ".new")
+        text = io.StringIO()
+        self.values.write(text)
         try:
-            with open(new, "w") as f:
-                self.values.write(f)
-                f.flush()
-                os.fsync(f.fileno())
-            os.replace(new, self.path)
+            files.replace(self.path, text.getvalue())
         except OSError as e:
             print(f"axis: preferences are not kept: {e}")
 

@@ -12,6 +12,7 @@ import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from . import files
 from .language import _
 
 FIRST = ("sim", "by_interface", "by_machine", "axis", "ngcgui", "touchy", "gscreen", "gmoccapy", "low_graphics")
@@ -174,14 +175,12 @@ def make_nc_files(tree):
 def remember(path):
     """Keeps [PICKCONFIG]LAST_CONFIG of ~/.linuxcncrc; other lines stay."""
     rc = Path.home() / ".linuxcncrc"
-    lines = rc.read_text().splitlines() if rc.exists() else []
+    lines = rc.read_text(errors="surrogateescape").splitlines() if rc.exists() else []
     lines = [line for line in lines if not re.match(r"\s*LAST_CONFIG\s*=", line)]
     if "[PICKCONFIG]" not in lines:
         lines.append("[PICKCONFIG]")
     lines.insert(lines.index("[PICKCONFIG]") + 1, f"LAST_CONFIG = {path}")
-    new = rc.with_name(rc.name + ".new")
-    new.write_text("\n".join(lines) + "\n")
-    os.replace(new, rc)
+    files.replace(rc, "\n".join(lines) + "\n")
 
 
 def desktop_entry(path, tree, name, comment=""):

@@ -47,6 +47,8 @@ typedef enum {
     GM_FIELD_ORIGIN,
     GM_FIELD_TOOLCHANGE,
     GM_FIELD_MACHINE_AXES, /* bit n: the move ends at a machine coordinate of axis n (G53, G28, G30) */
+    GM_FIELD_CALL_LEVEL,   /* of the line, 0: the main program */
+    GM_FIELD_MAIN_LINE,    /* line of the main program that is under way: this one, or the one that calls */
     GM_FIELD_MAX_FIELDS
 } StateField;
 

@@ -90,6 +90,8 @@ static int machine_axes(const Setup &s)
     return axes;
 }
 
+int main_line(const Setup &s) { return s.call_level > 0 ? s.frames[0].line : s.sequence_number; }
+
 void fill_tag(const Setup &s, state_tag_t *tag)
 {
     int *f = tag->fields;
@@ -102,6 +104,8 @@ void fill_tag(const Setup &s, state_tag_t *tag)
     f[GM_FIELD_ORIGIN] = system_g(s.origin_index);
     f[GM_FIELD_TOOLCHANGE] = s.last_toolchange;
     f[GM_FIELD_MACHINE_AXES] = machine_axes(s);
+    f[GM_FIELD_CALL_LEVEL] = s.call_level;
+    f[GM_FIELD_MAIN_LINE] = main_line(s);
     unsigned flags = 0;
     auto flag = [&](int bit, bool on) { flags |= unsigned(on) << bit; };
     flag(GM_FLAG_UNITS, s.units == CANON_UNITS_INCHES);

@@ -814,6 +814,7 @@ void Interp::fill_tag(state_tag_t *tag) const { ngc::fill_tag(*s, tag); }
 
 int Interp::line() const { return s->sequence_number; }
 int Interp::sequence_number() const { return s->sequence_number; }
+int Interp::main_line() const { return ngc::main_line(*s); }
 int Interp::call_level() const { return s->call_level; }
 int Interp::remap_level() const { return s->remap_level; }
 const char *Interp::command() const { return s->raw; }

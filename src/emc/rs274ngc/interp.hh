@@ -139,6 +139,7 @@ class Interp
     int line() const;            ///< last line read
     int sequence_number() const; ///< the same, for messages
     int call_level() const;      ///< 0: main program or MDI
+    int main_line() const;       ///< of the main program: line(), or the one that calls
     int remap_level() const;
     virtual const char *command() const;    ///< text of the last line read
     const char *line_text() const { return command(); }

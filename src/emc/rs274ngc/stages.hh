@@ -168,6 +168,8 @@ void update_tag(Setup &s);
 void active_g(const Setup &s, int *g);
 void active_m(const Setup &s, int *m);
 void active_values(const Setup &s, double *v);
+/// Line of the main program that is under way: the one that is read, or the one that calls.
+int main_line(const Setup &s);
 void fill_tag(const Setup &s, state_tag_t *tag);
 bool modes_of_tag(const state_tag_t &tag, int *g, int *m, double *v);
 [[nodiscard]] int execute_inner(Setup &s, const char *text); // context.cc

@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "replace_file.hh"
 #include "stages.hh"
 
 namespace ngc
@@ -73,24 +74,9 @@ template <class Take> int scan(FILE *f, Take take, const char **why)
     return 0;
 }
 
-// A new file, synced, takes the place of the old one, which stays as .bak.
 int write_file(Setup &s, const std::string &text)
 {
-    const std::string fresh = s.parameter_file + ".new", backup = s.parameter_file + ".bak";
-    FILE *f = fopen(fresh.c_str(), "we");
-    CHECK(!f, "Cannot open variable file");
-    bool good = fwrite(text.data(), 1, text.size(), f) == text.size();
-    good = fflush(f) == 0 && good;
-    good = fdatasync(fileno(f)) == 0 && good;
-    good = fclose(f) == 0 && good;
-    if (!good) {
-        unlink(fresh.c_str());
-        FAIL("Cannot open variable file");
-    }
-    unlink(backup.c_str());
-    if (link(s.parameter_file.c_str(), backup.c_str()) != 0 && errno != ENOENT) // ENOENT: the first save
-        perror(("cannot keep the previous variable file as " + backup).c_str());
-    CHECK(rename(fresh.c_str(), s.parameter_file.c_str()) != 0, "Cannot open variable file");
+    CHECK(!linuxcnc::replace_file(s.parameter_file, text, true), "Cannot open variable file");
     return INTERP_OK;
 }
 

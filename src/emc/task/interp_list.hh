@@ -32,9 +32,10 @@ public:
     struct Entry {
         int line = 0;
         int level = 0; // of subroutine calls
+        int main_line = 0; // of the main program: line, or the one that calls
         AnyMessage message;
     };
-    void append(const NMLmsg &m, int line) { entries_.push_back({line, level_, AnyMessage(m)}); }
+    void append(const NMLmsg &m, int line) { entries_.push_back({line, level_, level_ ? main_line_ : line, AnyMessage(m)}); }
     bool empty() const { return entries_.empty(); }
     size_t size() const { return entries_.size(); }
     Entry take() {
@@ -43,7 +44,11 @@ public:
         return e;
     }
     void clear() { entries_.clear(); }
-    void set_level(int level) { level_ = level; }
+    // Where reading is; main_line: of the call, when the level is not 0.
+    void set_level(int level, int main_line = 0) {
+        level_ = level;
+        main_line_ = main_line;
+    }
     // Drops the actions of lines that a run-from-line passes; messages to the operator stay.
     template <class Keep> void drop_unless(Keep keep) {
         std::deque<Entry> kept;
@@ -53,7 +58,7 @@ public:
     }
 private:
     std::deque<Entry> entries_;
-    int level_ = 0;
+    int level_ = 0, main_line_ = 0;
 };
 
 #endif

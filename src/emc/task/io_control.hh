@@ -19,6 +19,7 @@
 
 class IoControl {
 public:
+    const std::string &table() const { return table_; } // the tool table's file, empty: none
     explicit IoControl(EMC_STAT &stat) : stat_(stat) {}
     ~IoControl();
 

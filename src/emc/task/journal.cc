@@ -3,13 +3,16 @@
 // journal.cc - see journal.hh.
 #include "journal.hh"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <sstream>
+
+#include "program_copy.hh"
+#include "replace_file.hh"
 
 namespace {
 
@@ -45,7 +48,14 @@ std::string codes(const int *c, int count, char letter) {
     return text;
 }
 
-std::string describe(const EMC_STAT &s, const std::string &program) {
+// The file of a move that is not in the main program.
+std::string called_file(const EMC_STAT &s, const std::string &program) {
+    return s.task.callLevel > 0 && program != s.task.file ? std::string(" of ") + s.task.file : "";
+}
+
+} // namespace
+
+JournalRecord journal_record(const EMC_STAT &s, const JournalPlace &place) {
     const EMC_TASK_STAT &t = s.task;
     const int mask = s.motion.traj.axis_mask;
     char now[40] = "";
@@ -53,8 +63,12 @@ std::string describe(const EMC_STAT &s, const std::string &program) {
     tm parts;
     if (localtime_r(&seconds, &parts)) strftime(now, sizeof now, "%Y-%m-%d %H:%M:%S", &parts);
     char line[120];
-    std::string text = "program " + program + "\n";
-    text += "line " + std::to_string(t.motionLine > 0 ? t.motionLine : t.currentLine) + "\n";
+    std::string text = "program " + place.program + "\n";
+    text += "hash " + place.hash + "\n";
+    text += "line " + std::to_string(place.line) + "\n";
+    if (t.callLevel > 0)
+        text += "called line " + std::to_string(t.motionLine) + called_file(s, place.program) + ", call depth " +
+                std::to_string(t.callLevel) + "\n";
     text += std::string("time ") + now + "\n";
     text += "position" + words(s.motion.traj.actualPosition, mask) + "\n";
     text += "system " + std::to_string(t.g5x_index) + words(t.g5x_offset, mask) + "\n";
@@ -72,10 +86,48 @@ std::string describe(const EMC_STAT &s, const std::string &program) {
     }
     text += std::string("coolant mist ") + (s.io.coolant.mist ? "on" : "off") + " flood " +
             (s.io.coolant.flood ? "on" : "off") + "\n";
+    return JournalRecord(text);
+}
+
+std::string hash_and_name(const std::string &file) {
+    const std::shared_ptr<ngc::ProgramCopy> copy = file.empty() ? nullptr : ngc::ProgramCopy::of(file);
+    return (copy ? copy->hash() : "-") + " " + file;
+}
+
+std::string JournalRecord::get(const std::string &word) const {
+    const size_t at = ("\n" + text_).find("\n" + word + " ");
+    if (at == std::string::npos) return "?";
+    const size_t from = at + word.size() + 1;
+    return text_.substr(from, text_.find('\n', from) - from);
+}
+
+int JournalRecord::line() const { return atoi(get("line").c_str()); }
+
+// Codes without those of a line itself: how it moves (the first one), and G92, which has an item of its own.
+static std::string lasting(const std::string &codes) {
+    std::istringstream words(codes);
+    std::string text, word;
+    words >> word;
+    while (words >> word)
+        if (word.compare(0, 3, "G92") != 0) text += (text.empty() ? "" : " ") + word;
     return text;
 }
 
-} // namespace
+std::string JournalRecord::differences(const JournalRecord &now) const {
+    static const struct {
+        const char *word, *name;
+    } items[] = {{"system", "work offsets were"}, {"g92", "G92 was"},    {"rotation", "rotation was"},
+                 {"tool", "tool was"},            {"codes", "modes were"}};
+    std::string text;
+    for (const auto &item : items) {
+        std::string was = get(item.word), is = now.get(item.word);
+        if (item.word == std::string("codes"))
+            for (std::string *codes : {&was, &is}) *codes = lasting(*codes);
+        if (was != is && was != "?")
+            text += std::string("- DIFFERS: ") + item.name + " " + was + ", would be " + is + "\n";
+    }
+    return text;
+}
 
 Journal::~Journal() {
     {
@@ -86,8 +138,9 @@ Journal::~Journal() {
     if (writer_.joinable()) writer_.join();
 }
 
-std::string Journal::open(const std::string &file) {
+std::string Journal::open(const std::string &file, const Files &files) {
     file_ = file;
+    files_ = files;
     if (file_.empty()) return "";
     std::ifstream in(file_);
     std::stringstream left;
@@ -95,7 +148,7 @@ std::string Journal::open(const std::string &file) {
     return left.str();
 }
 
-void Journal::update(const EMC_STAT &stat, const std::string &program, bool running) {
+void Journal::update(const EMC_STAT &stat, const JournalPlace &place, bool running) {
     if (file_.empty()) return;
     if (!running) {
         if (running_) put("");
@@ -106,7 +159,7 @@ void Journal::update(const EMC_STAT &stat, const std::string &program, bool runn
     if (running_ && now < last_ns_ + EVERY_NS) return;
     running_ = true;
     last_ns_ = now;
-    put(describe(stat, program));
+    put(journal_record(stat, place).text());
 }
 
 void Journal::put(const std::string &text) {
@@ -120,22 +173,19 @@ void Journal::put(const std::string &text) {
 }
 
 void Journal::write_behind() {
-    const std::string next = file_ + ".new";
     std::unique_lock<std::mutex> hold(lock_);
     for (;;) {
         news_.wait(hold, [this] { return fresh_ || end_; });
         if (!fresh_) return;
         fresh_ = false;
-        const std::string text = text_;
+        std::string text = text_;
         hold.unlock();
         if (text.empty()) {
             unlink(file_.c_str());
-        } else if (int fd = ::open(next.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644); fd >= 0) {
-            const bool good =
-                write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && fdatasync(fd) == 0;
-            close(fd);
-            if (good) rename(next.c_str(), file_.c_str());
-            else unlink(next.c_str());
+            unlink((file_ + ".bak").c_str());
+        } else {
+            text += "table " + hash_and_name(files_.table) + "\nini " + hash_and_name(files_.ini) + "\n";
+            linuxcnc::replace_file(file_, text, true);
         }
         hold.lock();
     }

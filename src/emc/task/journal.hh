@@ -16,6 +16,30 @@
 
 #include "messages.hh"
 
+// What a journal says: lines of a word and its values.
+class JournalRecord {
+public:
+    JournalRecord() = default;
+    explicit JournalRecord(std::string text) : text_(std::move(text)) {}
+    bool empty() const { return text_.empty(); }
+    std::string get(const std::string &word) const; // "?" when it is not there
+    int line() const;                               // of the main program; 0 unknown
+    const std::string &text() const { return text_; }
+
+    // What differs in `now`, a line for each item of offsets, tool and modes; empty: nothing.
+    std::string differences(const JournalRecord &now) const;
+
+private:
+    std::string text_;
+};
+
+// What is running: the program, the SHA-256 of its text, the line of the main program.
+struct JournalPlace {
+    std::string program, hash;
+    int line = 0;
+};
+JournalRecord journal_record(const EMC_STAT &stat, const JournalPlace &place);
+
 class Journal {
 public:
     Journal() = default;
@@ -23,14 +47,20 @@ public:
     Journal(const Journal &) = delete;
     Journal &operator=(const Journal &) = delete;
 
+    // The files whose text must be the same when a run is taken up again.
+    struct Files {
+        std::string table, ini;
+    };
     // file: "" for none. Returns what the last run left, "" when it ended in order.
-    std::string open(const std::string &file);
+    std::string open(const std::string &file, const Files &files);
     // running: a program is being executed. Afterwards the file goes, however it was ended.
-    void update(const EMC_STAT &stat, const std::string &program, bool running);
+    void update(const EMC_STAT &stat, const JournalPlace &place, bool running);
+
 private:
     void put(const std::string &text); // "": the file goes
     void write_behind();
     std::string file_;
+    Files files_;
     bool running_ = false;
     int64_t last_ns_ = 0;
     std::thread writer_;
@@ -39,5 +69,8 @@ private:
     std::string text_;       // under the lock, as the next two
     bool fresh_ = false, end_ = false;
 };
+
+// "SHA-256 FILE" of a file, as in the journal.
+std::string hash_and_name(const std::string &file);
 
 #endif

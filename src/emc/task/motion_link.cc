@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "rcs_print.hh"
+#include "replace_file.hh"
 #include "usrmotintf.h"
 
 MotionLink::~MotionLink() {
@@ -727,14 +728,13 @@ int MotionLink::load_positions(const std::string &file) {
     return 0;
 }
 
-// Written whole and renamed: a power cut leaves the old file or the new one.
+// The old ones stay for the eye, as .bak: they are not where the machine is.
 int MotionLink::save_positions(const std::string &file) {
-    std::string fresh = file + ".new";
-    FILE *f = fopen(fresh.c_str(), "w");
-    if (!f) return -1;
-    bool good = true;
-    for (const emcmot_joint_status_t &j : status_->joint_status) good = fprintf(f, "%.17f\n", j.pos_fb) > 0 && good;
-    good = fflush(f) == 0 && fsync(fileno(f)) == 0 && good;
-    good = fclose(f) == 0 && good;
-    return good && rename(fresh.c_str(), file.c_str()) == 0 ? 0 : -1;
+    std::string text;
+    for (const emcmot_joint_status_t &j : status_->joint_status) {
+        char number[60];
+        snprintf(number, sizeof number, "%.17f\n", j.pos_fb);
+        text += number;
+    }
+    return linuxcnc::replace_file(file, text, true) ? 0 : -1;
 }

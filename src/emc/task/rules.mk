@@ -18,3 +18,12 @@ DEPS += $(patsubst %.o,%.d,$(call objs,ul,src/emc/task/test/$(1).cc))
 EXTRA_TARGETS += $(O)/test/task-$(1)
 endef
 $(eval $(call task_test,command_table))
+
+# FP-135 in full: LINES lines (ten million) executed in virtual time; lines a second, CPU and memory by the way in REPORT.
+# Five minutes on an idle machine, hours on a busy one: not among the benches of every day.
+.PHONY: bench-long-program
+bench-long-program: all
+	bash -c '. scripts/rip-environment && cd src/emc/task/bench && LINES=$(or $(LINES),10000000) \
+	    REPORT=$(abspath $(or $(REPORT),$(O)/long-program.txt)) MACHINE_TEST_S=360000 KERF_INSTANCE=longprogram \
+	    nice -n 19 ../../../../tests/task/lib/machine-test long_program_bench.py TASK.CYCLE_TIME=0.05'; status=$$?; \
+	    cat $(or $(REPORT),$(O)/long-program.txt); exit $$status

@@ -217,22 +217,18 @@ void Task::open_journal() {
     std::string file = ini_.findStringV(
         "JOURNAL", "TASK", canon_settings_.parameter_file.empty() ? "" : canon_settings_.parameter_file + ".journal");
     if (strcasecmp(file.c_str(), "none") == 0) file.clear();
-    const std::string left = journal_.open(file);
-    if (left.empty()) return;
-    auto after = [&](const char *word) {
-        const size_t at = ("\n" + left).find("\n" + std::string(word) + " ");
-        if (at == std::string::npos) return std::string("?");
-        const size_t from = at + strlen(word) + 1;
-        return left.substr(from, left.find('\n', from) - from);
-    };
-    const std::string program = after("program");
-    operator_display(("The last run was cut off at line " + after("line") + " of " +
-                      program.substr(program.rfind('/') + 1) + " (" + after("time") + ", position " +
-                      after("position") +
+    cut_ = JournalRecord(journal_.open(file, {io_.table(), ini_file_}));
+    if (cut_.empty()) return;
+    const std::string program = cut_.get("program");
+    stat_.cut_off_line = cut_.line();
+    copy_text(stat_.cut_off_file, program.c_str());
+    operator_display(("The last run was cut off at line " + cut_.get("line") + " of " +
+                      program.substr(program.rfind('/') + 1) + " (" + cut_.get("time") + ", position " +
+                      cut_.get("position") +
                       "). Home the machine, open the program and start at that line; all of it is in " + file)
                          .substr(0, LINELEN - 1)
                          .c_str());
-    rcs_print("%s", left.c_str());
+    rcs_print("%s", cut_.text().c_str());
 }
 
 void Task::run(const volatile int *stop) {
@@ -300,8 +296,13 @@ void Task::cycle() {
     watch_jogs();
     watch_control();
     watch_copies();
-    journal_.update(stat_, program_,
-                    stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE);
+    const bool runs = stat_.task.mode == EMC_TASK_MODE_AUTO && stat_.task.interpState != EMC_TASK_INTERP_IDLE;
+    if (runs && !cut_.empty()) { // its journal is overwritten
+        cut_ = {};
+        stat_.cut_off_line = 0;
+        stat_.cut_off_file[0] = 0;
+    }
+    journal_.update(stat_, {program_, stat_.program_hash, main_line_}, runs);
     send_messages();
     publish();
 }
@@ -492,6 +493,9 @@ void Task::publish() {
     bool from_tag = busy && t.mode == EMC_TASK_MODE_AUTO &&
                     Interp::active_modes(t.activeGCodes, t.activeMCodes, t.activeSettings, traj.tag);
     if (from_tag) running_tag_ = traj.tag; // motion drops it when it stops by itself
+    const bool moves = from_tag && traj.queue > 0 && traj.tag.fields[GM_FIELD_MAIN_LINE] > 0;
+    main_line_ = moves ? traj.tag.fields[GM_FIELD_MAIN_LINE] : order_line_;
+    if (moves) t.callLevel = traj.tag.fields[GM_FIELD_CALL_LEVEL];
     if (!from_tag) {
         interp_->active_g_codes(t.activeGCodes);
         interp_->active_m_codes(t.activeMCodes);

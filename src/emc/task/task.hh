@@ -96,6 +96,7 @@ private:
     int plan_restore_confirm(int line);
     void look_ahead();
     std::string restore_text() const;
+    std::string cut_text() const;
     void restore_step();
     void forget_restore();
 
@@ -170,6 +171,9 @@ private:
     int command_writer_ = 0;     // process
     JogOwners jog_owners_;
     Journal journal_;
+    JournalRecord cut_;          // of the run that was cut off, until another one begins
+    int order_line_ = 0;         // line of the main program that the last order belongs to
+    int main_line_ = 0;          // ... that is under way
     int64_t jogs_looked_at_ = 0;
     bool plan_error_ = false, execute_error_ = false;
     Control control_;

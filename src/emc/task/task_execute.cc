@@ -151,6 +151,7 @@ void Task::take_next() {
     pending_ = list_.take();
     t.currentLine = pending_.line;
     t.callLevel = pending_.level;
+    order_line_ = pending_.main_line;
     motion_.set_id(pending_.line);
     set_exec(stat_.motion.traj.queueFull ? EMC_TASK_EXEC_WAITING_FOR_MOTION_QUEUE : precondition(*pending_.message));
     eager_ = true;

@@ -647,7 +647,7 @@ void Task::read_ahead() {
         line_read_ = false;
         t.readLine = interp_->line();
         copy_text(t.command, interp_->command());
-        list_.set_level(interp_->call_level());
+        list_.set_level(interp_->call_level(), interp_->main_line());
         if (r > INTERP_MIN_ERROR) {
             interp_failed(r, false);
             return;

@@ -163,7 +163,33 @@ std::string Task::restore_text() const {
         if (g[i] >= 0) modes += " G" + std::to_string(g[i] / 10) + (g[i] % 10 ? "." + std::to_string(g[i] % 10) : "");
     add(modes + ", F" + number(settings[1]) + ", S" + number(settings[2]));
     for (const std::string &n : dry_->notes()) add("note: " + n);
-    return text;
+    return text + cut_text();
+}
+
+// What a run that was cut off had in force, beside what a start here would have.
+std::string Task::cut_text() const {
+    if (cut_.empty()) return "";
+    const bool same = cut_.get("hash") == stat_.program_hash;
+    if (!same && cut_.get("program") != program_) return "";
+    std::string text =
+        "The run that was cut off at line " + cut_.get("line") + " (" + cut_.get("time") + "), beside this start:\n";
+    auto compare = [&](bool equal, const std::string &what) {
+        text += "- " + (equal ? what + " is the same" : "DIFFERS: " + what + " was changed since") + "\n";
+    };
+    compare(same, "the program");
+    compare(cut_.get("table") == hash_and_name(io_.table()), "the tool table");
+    compare(cut_.get("ini") == hash_and_name(ini_file_), "the INI file");
+    if (dry_->line() != cut_.line()) {
+        text += "- DIFFERS: this is line " + std::to_string(dry_->line()) + "\n";
+        return text;
+    }
+    auto then = std::make_unique<EMC_STAT>(dry_->stat());
+    dry_->interp().active_g_codes(then->task.activeGCodes);
+    dry_->interp().active_m_codes(then->task.activeMCodes);
+    dry_->interp().active_settings(then->task.activeSettings);
+    const std::string other = cut_.differences(journal_record(*then, {}));
+    return text + (other.empty() ? "- offsets, rotation, tool, tool length and modes are the same\n" : other) +
+           "- the machine stood at " + cut_.get("position") + "\n";
 }
 
 int Task::plan_restore_confirm(int line) {

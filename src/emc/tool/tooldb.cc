@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "tooldata.h"
+#include "replace_file.hh"
 #include "tooltext.hh"
 
 namespace
@@ -100,7 +101,7 @@ int tooldb_save_spindle()
     if (tooldata_get(&t, 0) != IDX_OK) return -1;
     char line[CANON_TOOL_ENTRY_LEN];
     tooldata_format_toolline(0, 1, t, line);
-    return tooltext::replace_file("./db_spindle.tbl", line, false) ? 0 : -1;
+    return linuxcnc::replace_file("./db_spindle.tbl", line, false) ? 0 : -1;
 }
 
 void tooldata_set_db(tooldb_t mode)

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "tooldb.hh"
+#include "replace_file.hh"
 #include "tooltext.hh"
 
 using namespace tooltext;
@@ -286,7 +287,7 @@ int tooldata_save(const char *filename)
     }
     while (next < entries.size()) write_next(nullptr);
 
-    if (replace_file(filename, text, true)) return 0;
+    if (linuxcnc::replace_file(filename, text, true)) return 0;
     const std::string why = strerror(errno);
     fprintf(stderr, "tooldata_save(): '%s': %s\n", filename, why.c_str());
     problem(filename, 0, 0, "the tools can not be saved: " + why);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
- * tooltext.hh - what reading and saving the tool table share: words of a line, problems,
- * files that are replaced whole. [task]
+ * tooltext.hh - what reading and saving the tool table share: words of a line, problems.
+ * [task]
  */
 #ifndef KERF_TOOLTEXT_HH
 #define KERF_TOOLTEXT_HH
@@ -38,11 +38,6 @@ bool take(const Word &word, CANON_TOOL_TABLE &t);
 
 /// The lines of a file without their ends. False: it can not be opened (errno).
 bool read_lines(const char *filename, std::vector<std::string> *lines);
-
-/// Writes a new file beside the old one, syncs it and puts it in place: after a power cut
-/// there is the old text or the new one. The old file stays as FILE.bak if `backup`; a
-/// symbolic link keeps pointing to its file. False: errno, the old file is untouched.
-bool replace_file(const std::string &filename, const std::string &text, bool backup);
 
 void forget_problems();
 /// A line for tooldata_problems() alone: standard error has been told in other words.

@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Python module kerf_tooltext: lines of tool tables, and files that are replaced whole. [task]
+#include "replace_file.hh"
 #include "tooltext.hh"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <cerrno>
-#include <optional>
 
 namespace py = pybind11;
 
 namespace
 {
 
-using Words = std::vector<std::tuple<char, std::string, int>>;
+// Bytes that are no UTF-8 come back as they were with surrogateescape.
+py::str decoded(const std::string &text)
+{
+    PyObject *s = PyUnicode_DecodeUTF8(text.data(), py::ssize_t(text.size()), "surrogateescape");
+    if (!s) throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(s);
+}
 
-std::pair<Words, std::optional<std::string>> split(const std::string &line)
+py::tuple split(const std::string &line)
 {
     const tooltext::Line parts = tooltext::split(line);
-    Words words;
-    for (auto &w : parts.words) words.emplace_back(w.letter, w.text.substr(1), w.column);
-    if (!parts.has_comment) return {words, std::nullopt};
-    return {words, parts.comment};
+    py::list words;
+    for (auto &w : parts.words) {
+        const py::str whole = decoded(w.text); // the letter may be any character of a damaged file
+        py::object letter = py::str(std::string(1, w.letter & 0x7f));
+        if (w.letter & 0x80) letter = whole[py::int_(0)];
+        words.append(py::make_tuple(letter, whole[py::slice(1, py::ssize_t(py::len(whole)), 1)], w.column));
+    }
+    if (!parts.has_comment) return py::make_tuple(words, py::none());
+    return py::make_tuple(words, decoded(parts.comment));
 }
 
 [[noreturn]] void fail(const std::string &filename)
@@ -32,7 +43,7 @@ std::pair<Words, std::optional<std::string>> split(const std::string &line)
 
 void replace_file(const std::string &filename, const py::bytes &text, bool backup)
 {
-    if (!tooltext::replace_file(filename, text, backup)) fail(filename);
+    if (!linuxcnc::replace_file(filename, text, backup)) fail(filename);
 }
 
 } // namespace

@@ -10,7 +10,7 @@ FUZZ_halcmd := src/hal/utils/halcmd/fuzz.cc $(FUZZ_PARTS)
 FUZZ_parsers := $(addprefix src/hal/test/,fuzz_parsers.cc fuzz_stream.c) $(addprefix src/hal/utils/halrmt/,server.cc \
     commands.cc) src/hal/stream/halstream_main.c $(filter-out src/emc/ini/%,$(FUZZ_PARTS))
 FUZZ_host := src/hal/test/fuzz_host.c $(filter-out %/host_main.c %/host_module.c,$(RTAPI_HOST_SOURCES))
-FUZZ_rs274 := src/emc/rs274ngc/rs274_fuzz.cc $(RS274_SOURCES) $(TOOLDATA_SOURCES) src/emc/ini/inifile.cc
+FUZZ_rs274 := src/emc/rs274ngc/rs274_fuzz.cc $(RS274_SOURCES) $(TOOLDATA_SOURCES) $(INIFILE_SOURCES)
 FUZZ_FLAVOUR_halcmd := ul
 FUZZ_FLAVOUR_parsers := ul
 FUZZ_FLAVOUR_rs274 := ul

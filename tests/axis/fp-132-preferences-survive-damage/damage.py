@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # FP-132: every cut and many damages of the preferences and of the MDI history: the screen starts with what is left, the old file is kept.
-import os
 import random
 import tempfile
 from pathlib import Path
 
 from axis.mdi import MdiHistory
 from axis.prefs import Preferences
+from kerf import files
 
 folder = Path(tempfile.mkdtemp())
 path = folder / "prefs"
@@ -41,12 +41,12 @@ for content in damages:
 print("damages:", len(damages), "told:", told > 30, "wrong:", wrong[:2])
 
 # a write that is cut off leaves the old file
-replace = os.replace
-os.replace = lambda *names: (_ for _ in ()).throw(OSError(28, "No space left on device"))
+replace = files.replace
+files.replace = lambda *names: (_ for _ in ()).throw(OSError(28, "No space left on device"))
 before = path.read_bytes()
 Preferences(path).putpref("show_tool", False)
 MdiHistory(folder / "history").add("G0 X1")
-os.replace = replace
+files.replace = replace
 print("cut off: old file whole:", path.read_bytes() == before)
 (folder / "history").write_bytes(b"G0 X1\n\xff\xfe\x00garbage\n" + b"G1 X2\n" * 3)
 print("history:", MdiHistory(folder / "history").lines[::3])

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+import re
 import signal
 import sys
 import time
@@ -33,6 +34,18 @@ def gone():
     return False
 
 
+def standing(words):
+    """Holds the program until the journal says so: it is written in wall time."""
+    c.auto(AUTO_PAUSE)
+    for _ in range(400):
+        if journal.exists() and words in journal.read_text():
+            return
+        c.auto(AUTO_RESUME)
+        sleep(0.001)
+        c.auto(AUTO_PAUSE)
+        time.sleep(0.05)
+
+
 if part == "cut":
     print("nothing was cut off before:", messages())
     on()
@@ -41,19 +54,23 @@ if part == "cut":
     program(TEXT, "part.ngc")
     c.auto(AUTO_RUN, 0)
     need(lambda s: s.motion_line == 10 and s.position[0] > 21, "line 10")
-    c.auto(AUTO_PAUSE)      # the journal is written in wall time: it is to say line 10
-    for _ in range(400):
-        if journal.exists() and "line 10\n" in journal.read_text():
-            break
-        c.auto(AUTO_RESUME)
-        sleep(0.001)
-        c.auto(AUTO_PAUSE)
-        time.sleep(0.05)
+    standing("line 10\n")
     for text in journal.read_text().splitlines():
-        if not text.startswith(("time", "position")):
+        if not text.startswith(("time", "position", "hash", "table", "ini")):
             print("   ", text)
     session.kill("milltask")
     signal.pause()
+elif part == "power":           # all at once
+    Path("helper.ngc").write_text("o<helper> sub\n(first)\nG1 X20 F60\nG1 Y10\no<helper> endsub\n")
+    on()
+    program(TEXT.replace("G1 X20 F60", "o<helper> call"), "caller.ngc")
+    c.auto(AUTO_RUN, 0)
+    need(lambda s: s.motion_line == 3 and s.position[0] > 21 and s.call_level == 1, "line 3 of the subroutine")
+    standing("line 10\n")
+    told = journal.read_text()
+    print("   ", *[l for l in told.splitlines() if l.startswith(("line", "called"))], sep="\n    ")
+    print("    hashes:", [len(l.split()[1]) for l in told.splitlines() if l.startswith(("hash", "table", "ini"))])
+    session.kill_all()
 elif part == "again":
     told = []
     clock.wait_until(lambda: told.extend(messages()) or told, 5)
@@ -66,7 +83,7 @@ elif part == "again":
     line = int([l for l in journal.read_text().splitlines() if l.startswith("line ")][0].split()[1])
     c.restore(line)
     print("restore:", until(lambda s: s.restore_line == line, 10))
-    print(s.restore_text)
+    print(re.sub(r"\d+-\d+-\d+ [\d:]+", "TIME", re.sub(r"stood at X21.\d+", "stood at X21", s.restore_text)))
     sleep(2)
     poll()
     print("nothing moved or started:", xyz() == before, s.spindle[0]["enabled"], s.flood, s.tool_in_spindle)
@@ -77,5 +94,18 @@ elif part == "again":
     c.abort()
     c.wait_complete()
     print("stopped by the operator, it leaves nothing:", gone())
+elif part == "changed":         # program, tool table, INI file, offset and tool length since
+    on()
+    print("cut off:", s.cut_off_line, Path(s.cut_off_file).name)
+    mode(MODE_AUTO)
+    c.program_open(s.cut_off_file)
+    c.wait_complete()
+    for line in (10, 8):
+        c.restore(line)
+        print("restore:", until(lambda s: s.restore_line == line, 10))
+        print(re.sub(r"\d+-\d+-\d+ [\d:]+", "TIME", re.sub(r"stood at X21.\d+", "stood at X21", s.restore_text.partition("The run that")[2])))
+    c.abort()
+    run("M2\n", name="other.ngc")
+    print("forgotten when another program has run:", poll().cut_off_line, s.cut_off_file, gone())
 else:
     print("nothing was cut off:", messages())

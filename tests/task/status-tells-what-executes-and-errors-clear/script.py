@@ -11,12 +11,12 @@ seen = []
 c.auto(AUTO_RUN, 0)
 while poll().interp_state != INTERP_IDLE or s.queue:
     if s.motion_type == 2 and s.current_vel > 0.5 and s.motion_line:
-        now = s.motion_line, s.file.rsplit("/", 1)[-1], s.program_units, s.call_level >= 0, s.settings[0] >= 0
+        now = s.motion_line, s.file.rsplit("/", 1)[-1], s.program_units, s.call_level, s.settings[0] >= 0
         if not seen or seen[-1] != now:
             seen.append(now)
     sleep(0.004)
-for line, file, units, *_ in seen:
-    print("line", line, "of", file, "units", {1: "inch", 2: "mm"}[units])
+for line, file, units, level, _ in seen:
+    print("line", line, "of", file, "depth", level, "units", {1: "inch", 2: "mm"}[units])
 print("at the end", s.program_units, messages())
 # FP-128
 print(mdi("G1 X[1/0]"), poll().interpreter_errcode, messages())

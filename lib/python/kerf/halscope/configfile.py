@@ -5,7 +5,7 @@ load() returns warnings; a line that cannot be used changes nothing. `resolve(ki
 the hal_type_t of a source, 0 when there is none.
 """
 
-import kerf_tooltext
+from kerf import files
 
 from . import settings as st
 
@@ -156,4 +156,4 @@ def text(s):
 
 
 def save(path, settings):
-    kerf_tooltext.replace_file(path, text(settings).encode(), False)
+    files.replace(path, text(settings))

@@ -15,7 +15,7 @@ import threading
 import time
 from pathlib import Path
 
-from .. import clock
+from .. import clock, files
 from .periods import two_periods
 from .session import Platform, ToolError, realtime_running
 
@@ -54,12 +54,13 @@ def keep_worst(path: Path, jitter_ns: int) -> int:
     """Writes the larger of the kept and the given jitter; returns it."""
     try:
         worst = int(path.read_text().split()[0])
+    except FileNotFoundError:
+        worst = 0
     except (OSError, ValueError, IndexError):
+        print(f"latency-test: {path} holds no number of nanoseconds", file=sys.stderr)
         worst = 0
     worst = max(worst, jitter_ns)
-    new = path.with_name(path.name + ".new")
-    new.write_text(f"{worst}\n")
-    new.replace(path)
+    files.replace(path, f"{worst}\n")
     return worst
 
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 
-import kerf_tooltext
-
+from .. import files
 from ..language import _
 from ..tree import Tree
 from . import watch
@@ -222,7 +221,7 @@ class Calibration:
                 if change[0] == path:
                     lines[change[1]] = change[2]
             try:
-                kerf_tooltext.replace_file(str(path), "".join(lines).encode("latin-1"), True)
+                files.replace(path, "".join(lines).encode("latin-1"))
             except OSError as error:
                 raise NotPossible(f"{path}: {error.strerror}") from None
         return [c[3] for c in changes]

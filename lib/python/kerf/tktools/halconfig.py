@@ -3,9 +3,10 @@
 
 import os
 import tkinter as tk
+from pathlib import Path
 from tkinter import messagebox, ttk
 
-from .. import tkstyle
+from .. import files, tkstyle
 from ..language import _, N_
 from . import halshow
 
@@ -57,7 +58,8 @@ class Window(halshow.Window):
         if not path or self.hal("save", KINDS[kind], f"{path}.new") is None:
             return False
         try:
-            os.replace(f"{path}.new", path)
+            files.replace(path, Path(f"{path}.new").read_bytes())
+            os.unlink(f"{path}.new")
         except OSError as error:
             self.say(f"{path}: {error.strerror}", True)
             return False

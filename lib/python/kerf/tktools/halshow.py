@@ -62,7 +62,7 @@ class Preferences:
         for words in calls.get("wm", ()):
             if words[:2] == ("geometry", "."):
                 self.geometry = words[2]
-        for words in calls.get("placeFrames", ()):
+        for words in filter(None, calls.get("placeFrames", ())):
             self.ratio = self._number(words[0], LEFT_SHARE)
         self.watchlist = tclprefs.words(self.values.get("watchlist", ""))
         self.workmode = self.values.get("workmode", "showhal")

@@ -17,7 +17,7 @@ from tkinter import filedialog, ttk
 import numpy
 from PIL import Image
 
-from .. import relief, tkstyle
+from .. import files, relief, tkstyle
 from ..language import _
 
 PROGRAM = "image-to-gcode"
@@ -43,7 +43,11 @@ def remembered():
     try:
         with open(REMEMBERED.expanduser(), "rb") as f:
             values = _Plain(f).load()
-    except (OSError, pickle.UnpicklingError, EOFError, ValueError, AttributeError, IndexError, KeyError, ImportError):
+    except FileNotFoundError:
+        return settings
+    except (OSError, pickle.UnpicklingError, EOFError, ValueError, AttributeError, IndexError, KeyError, ImportError, TypeError, OverflowError,
+            MemoryError) as error:
+        print(f"{PROGRAM}: {REMEMBERED.expanduser()} is not used: {error}", file=sys.stderr)
         return settings
     if isinstance(values, dict):
         for field in dataclasses.fields(settings):
@@ -55,11 +59,8 @@ def remembered():
 
 
 def remember(settings):
-    path = REMEMBERED.expanduser()
-    new = path.with_name(path.name + ".new")
     try:
-        new.write_bytes(pickle.dumps(dataclasses.asdict(settings), protocol=2))
-        os.replace(new, path)
+        files.replace(REMEMBERED.expanduser(), pickle.dumps(dataclasses.asdict(settings), protocol=2))
     except OSError as error:
         print(f"{PROGRAM}: {error}", file=sys.stderr)
 

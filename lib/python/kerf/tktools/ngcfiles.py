@@ -16,6 +16,7 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .. import files
 from ..language import _
 
 MOST = 30                       # parameters of a subroutine, and names of a gcmc file
@@ -251,9 +252,7 @@ class Program:
     def write(self, path):
         """The program as a file, with a copy in a backup folder. OSError."""
         path, text = Path(path), self.text()
-        new = path.with_name(path.name + ".new")
-        new.write_text(text)
-        os.replace(new, path)
+        files.replace(path, text)
         for folder in backup_folders():
             try:
                 folder.mkdir(exist_ok=True)

@@ -4,7 +4,7 @@
 import sys
 import tkinter
 
-import kerf_tooltext
+from .. import files
 
 
 def read(path, commands=()):
@@ -60,4 +60,4 @@ def quoted(value):
 
 def write(path, text):
     """The whole file at once. Raises OSError; then the old file is still there."""
-    kerf_tooltext.replace_file(str(path), text.encode(), False)
+    files.replace(path, text)

@@ -5,13 +5,13 @@ The program writes G-code to standard output. Settings at its head, `#1=0.1 (saf
 `#<depth>=-0.5 (depth)`, become the parameters of the subroutine; other numbers up to #30 become names, the end (M2, M30, %) goes.
 """
 
-import os
 import re
 import shlex
 import subprocess
 import tempfile
 from pathlib import Path
 
+from .. import files
 from ..language import _
 from .ngcfiles import MOST, bare, comments, is_value, note
 
@@ -98,6 +98,4 @@ def write(path, text):
     path = Path(path)
     if path.exists() and note(MADE) not in path.read_text(errors="replace").splitlines()[:2]:
         raise Failed(_("%s is there and was not made of text: choose another name") % path.name)
-    new = path.with_name(path.name + ".new")
-    new.write_text(text)
-    os.replace(new, path)
+    files.replace(path, text)
