@@ -5,7 +5,7 @@ import tempfile
 import tkinter
 
 import numpy as np
-from rs274 import OpenGLTk
+from rs274 import OpenGLTk, options
 from rs274.glcanon import GLCanon, GlCanonDraw
 
 PROGRAM = "G20 G90 F60\nG1 X1\nY1\nX0\nY0\nM2\n"
@@ -79,4 +79,9 @@ for change in (lambda: None, lambda: None, lambda: view.zoom(0.5), lambda: None)
 print("drawn anew:", len(drawn), "another picture:", bool((before != renderer.pixels()).any()))
 view.fit()
 print("fits again:", [round(v, 3) for v in camera.centre])
+root.option_add("*Togl.traverse", "red")
+options.install(root)
+togl = tkinter.Frame(root, class_="Togl")
+print("options:", *[togl.option_get(name, name.capitalize()) for name in (
+    "straight_feed", "backplotarc", "dwell", "tool_light_y", "overlay_alpha", "arc_feed_alpha", "traverse")])
 root.destroy()
