@@ -6,9 +6,8 @@
 // task holds open. A byte: task ended in order, and so does this. The end of the pipe: task is dead.
 //
 // In:     motion's command block
-// Out:    motion aborted and disabled, spindles and digital outputs off. What task's pins fed falls when HAL
-//         removes its
-//         component, at the latest now (hal_init)
+// Out:    motion aborted and disabled, spindles and digital outputs off, analog outputs 0. What task's
+//         pins fed falls when HAL removes its component, at the latest now (hal_init)
 // Thread: [task]; never beside a task that lives
 #include <unistd.h>
 
@@ -35,12 +34,14 @@ bool order(cmd_code_t what, int spindle = 0, int output = 0) {
     return usrmotWriteEmcmotCommand(&c) == EMCMOT_COMM_OK;
 }
 
-// Those of M62 and M64: bits that task drove, like its pins.
-bool digital_outputs_off() {
+// Those of M62 to M65, M67 and M68: what task drove, like its pins.
+bool outputs_off() {
     emcmot_status_t s;
     bool good = usrmotReadEmcmotStatus(&s) == 0;
     for (int i = 0; good && i < EMCMOT_MAX_DIO; i++)
         if (s.synch_do[i]) good = order(EMCMOT_SET_DOUT, 0, i);
+    for (int i = 0; good && i < EMCMOT_MAX_AIO; i++)
+        if (s.analog_output[i] != 0) good = order(EMCMOT_SET_AOUT, 0, i);
     return good;
 }
 
@@ -73,7 +74,7 @@ int main(int argc, char **argv) {
         good = order(EMCMOT_ABORT);
         for (int s = 0; good && s < spindles; s++) good = order(EMCMOT_SPINDLE_OFF, s);
         good = order(EMCMOT_DISABLE) && good;
-        good = digital_outputs_off() && good;
+        good = outputs_off() && good;
         usrmotExit();
     }
     hal_exit(comp);

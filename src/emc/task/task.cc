@@ -272,6 +272,8 @@ void Task::shutdown() {
         if (stat_.motion.spindle[s].enabled) motion_.spindle_off(s);
     for (int i = 0; i < EMCMOT_MAX_DIO; i++)
         if (stat_.motion.synch_do[i]) motion_.set_dout(i, 0, 0, 1);
+    for (int i = 0; i < EMCMOT_MAX_AIO; i++)
+        if (stat_.motion.analog_output[i] != 0) motion_.set_aout(i, 0, 0, 1);
     io_.estop_on(); // what its pins feed keeps the last value
     update_motion();
     if (!settings_.position_file.empty()) motion_.save_positions(settings_.position_file);

@@ -1,5 +1,6 @@
 #!/bin/bash
-# kill -9 of task in the middle of a program with spindle and coolant on, an ordinary end in the middle of one, and kill -9 of the
+# FP-133: kill -9 of task in the middle of a program with spindle, coolant, digital and analog outputs on, task that gets no more memory
+# for a program that wants some, an ordinary end in the middle of one, and kill -9 of the
 # whole launcher and task at once: while the realtime part still runs, outputs and enables fall and motion ends.
 export KERF_CLOCK=virtual KERF_INSTANCE=${KERF_INSTANCE:-falls}
 out=$(mktemp -d); trap 'rm -rf "$out"' EXIT
@@ -11,7 +12,7 @@ cat >> "$out/machine/spindle.hal" <<'HAL'
 net flood iocontrol.0.coolant-flood
 net mist iocontrol.0.coolant-mist
 HAL
-for victim in milltask display launcher-and-task; do
+for victim in milltask memory display launcher-and-task; do
     printf '#!/bin/sh\nexec /usr/bin/python3 -B %s/watcher.py %s %s\n' "$here" $victim "$out" > "$out/display"; chmod +x "$out/display"
     linuxcnc -r -D "$out/display" "$out/machine/mill.ini" > "$out/log" 2>&1 < /dev/null
     echo "$victim: status $([ $? -ne 0 ] && echo not 0 || echo 0)"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """watcher.py VICTIM FOLDER: runs a program, kills the victim and writes to FOLDER/seen what became of the outputs."""
 import os
+import resource
 import signal
 import sys
 from pathlib import Path
@@ -11,7 +12,7 @@ import session
 from kerf import clock
 
 victim, folder = sys.argv[1], Path(sys.argv[2])
-PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out")
+PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out", "motion.digital-out-00", "motion.analog-out-00")
 SIGNALS = ("flood", "mist", "estop-loop")
 clock.join("observer", 900)
 me = hal.component("observer")
@@ -21,7 +22,8 @@ for order in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
     c.state(order)
     c.wait_complete()
 c.mode(linuxcnc.MODE_AUTO)
-(folder / "p.ngc").write_text("M3 S1000\nM7\nM8\nF30\nG1 X300\nX0\nM2\n")
+NAMES = "".join(f"#<name{n}> = 1\n" for n in range(100000)) if victim == "memory" else ""
+(folder / "p.ngc").write_text("M3 S1000\nM7\nM8\nM64 P0\nM68 E0 Q5\nF30\nG1 X1\n" + "G1 X0\nG1 X1\n" * 600 + NAMES + "G1 X300\nX0\nM2\n")
 c.program_open(str(folder / "p.ngc"))
 c.auto(linuxcnc.AUTO_RUN, 0)
 
@@ -47,7 +49,11 @@ if os.fork():
         for signal_number in (signal.SIGSTOP, signal.SIGKILL):      # neither sees the other one end
             for pid in (guard, launcher):
                 os.kill(pid, signal_number)
-    session.kill("milltask")
+    if victim == "memory":      # task gets no more than it has: reading ahead ends it
+        for pid in session.processes("milltask"):
+            resource.prlimit(pid, resource.RLIMIT_AS, (1, resource.RLIM_INFINITY))
+    else:
+        session.kill("milltask")
     clock.leave()
     signal.pause()
 signal.signal(signal.SIGTERM, signal.SIG_IGN)    # a child looks on, to see what comes after
