@@ -299,8 +299,11 @@ class PathCanon final : public PreviewCanon
         path.extents.add(p[0] + tool[0], p[1] + tool[1], p[2] + tool[2]);
         path.extents_notool.add(p[0], p[1], p[2]);
     }
+    /// The lines of a subroutine in a file of its own are told as the one that calls it.
+    int shown_line(int line) const { return interp && interp->setup().source > 0 ? interp->main_line() : line; }
     void piece(int line, const Point9 &to, PathKind kind)
     {
+        line = shown_line(line);
         if (need_jump) {
             vertex(line, here, PathKind::JUMP);
             extend(here);
@@ -333,7 +336,7 @@ class PathCanon final : public PreviewCanon
             mark_step *= 2;
         }
         const int p = plane == CANON_PLANE_XZ ? 1 : plane == CANON_PLANE_YZ ? 2 : 0;
-        path.marks.push_back({line, here[0], here[1], here[2], p, user_m});
+        path.marks.push_back({shown_line(line), here[0], here[1], here[2], p, user_m});
     }
 
     ProgramPath &path;

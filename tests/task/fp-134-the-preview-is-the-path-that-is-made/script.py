@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Random programs from random start states, and one with what they leave out (tools, cycles, compensation, loops...) (work offset, rotation, G92, tool length, units, plane set by MDI): each
-# vertex of what the screen draws lies on the path that is made, each point of the path that is cut lies on what is
-# drawn, both within 1 um, and the drawing reaches as far as the path does. Arcs are drawn as chords, here of 0.7
-# degrees, less than 0.2 um beside them.
+# Random programs, and one with what they leave out (tools, cycles, compensation, loops...), from random start states
+# (work offset, rotation, G92, tool length, units, plane set by MDI): each vertex of what the screen draws lies on the
+# path that is made, each point of the path that is cut lies on what is drawn, both within 1 um, and the drawing
+# reaches as far as the path does. Arcs are drawn as chords, here of 0.7 degrees, less than 0.2 um beside them.
 import math
 import random
 
