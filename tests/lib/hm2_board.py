@@ -6,6 +6,7 @@ at IP:27181 until its standard input ends, and says `ready` first.
 Time on the board goes on by CYCLE_NS with each packet that carries a read counter, so that what a test sees does not
 depend on the computer. Registers from 0xF000 on are no part of HostMot2: with them (raw.write_address ...) a test
 lets things happen to the board."""
+import random
 import select
 import socket
 import struct
@@ -21,6 +22,7 @@ IDROM = 0x400
 # For tests: the next N answers are lost, are cut, or the N next packets do not arrive at all; the next packet comes
 # so many ns late; the same for writes only.
 LOSE, CUT, DEAF, LATE, LOSE_WRITES = 0xF000, 0xF004, 0xF008, 0xF00C, 0xF010
+CHAOS = 0xF014              # one in so many packets goes wrong in some way
 PACKETS = 0xF020            # number of packets so far
 ENCODER_RATE = 0xF100       # of each encoder, 1/65536 counts in a cycle, signed
 ENCODER_INDEX = 0xF180      # counts between index pulses; 0: none
@@ -438,7 +440,7 @@ class Board:
         self.encoders = [Encoder(r, unit) for unit in range(2) if {4, 12} & set(tags)]
         self.card_port = None
         self.frame_channel = FrameChannel(r) if 27 in tags else None
-        self.ticks = 0.0
+        self.ticks, self.last, self.random = 0.0, b'', random.Random(1)
 
     def write_identity(self, name, modules, pins, port_width, stride):
         r, count = self.registers, len(pins)
@@ -487,11 +489,11 @@ class Board:
                 self.timers[addr:addr + len(data)] = data
 
     def answer(self, packet):
-        """Does what a packet says; what the board sends back (None: nothing)."""
+        """Does what a packet says; the packets that the board sends back."""
         r, at, reply = self.registers, 0, b''
         r.put(PACKETS, r.get(PACKETS) + 1)
         writes = struct.unpack_from('<H', packet)[0] & 0x8000
-        deaf = r.take(DEAF) or (writes and r.take(LOSE_WRITES))
+        deaf = r.take(DEAF) or (writes and (r.take(LOSE_WRITES) or self.unlucky()))
         reads = []
         while at < len(packet):
             command, addr = struct.unpack_from('<HH', packet, at)
@@ -507,8 +509,19 @@ class Board:
         for space, addr, size in reads:
             reply += bytes(self.registers.read(addr, size) if space == 0 else self.memory_of(space)[addr:addr + size])
         if not reads or deaf or r.take(LOSE):
-            return None
-        return reply[:-1] if r.take(CUT) else reply
+            return []
+        return self.wrong(reply) if self.unlucky() else [reply[:-1] if r.take(CUT) else reply]
+
+    def unlucky(self):
+        every = self.registers.get(CHAOS)
+        return every and self.random.randrange(every) == 0
+
+    def wrong(self, reply):
+        """What a network can make of an answer: nothing is lost, so that nobody waits."""
+        old, self.last = self.last, reply
+        return self.random.choice([[old, reply], [reply, reply], [reply[:self.random.randrange(len(reply))]],
+                                   [reply + bytes(1300)], [bytes(len(reply)), reply], [b'', reply],
+                                   [self.random.randbytes(len(reply)), reply]])
 
 
 def main():
@@ -528,8 +541,7 @@ def main():
         readable, _, _ = select.select([sock, sys.stdin], [], [])
         if sock in readable:
             packet, sender = sock.recvfrom(2000)
-            reply = board.answer(packet)
-            if reply is not None:
+            for reply in board.answer(packet):
                 sock.sendto(reply, sender)
         elif not sys.stdin.read(1):
             return

@@ -1,7 +1,7 @@
 #!/bin/bash
 # The board's watchdog runs from the first write on and only writes pet it. When it bites, outputs let go, has_bit rises
 # and the cause is told, once; nothing goes out until the operator clears has_bit, then everything is written again.
-../../lib/with-hm2-board <<'END'
+../../lib/with-hm2-board <<'END' | sed 's/threadbeat =[1-9][0-9]*/threadbeat goes on/'
 get %.watchdog.has_bit
 setp %.gpio.000.is_output 1
 setp %.gpio.000.out 1
@@ -31,4 +31,8 @@ say without writes it bites
 delf %.write servo
 wait 0.01
 get %.watchdog.has_bit
+say the driver goes while the thread runs: the thread goes on
+unloadrt hm2_eth
+wait 0.01
+get servo.threadbeat
 END

@@ -114,7 +114,7 @@ static struct channel *find(const char *name)
         for(i = 0; s && i < s->count; i++)
             if(!strcmp(s->channel[i].name, name)) return &s->channel[i];
     }
-    rtapi_print_msg(RTAPI_MSG_ERR, "hm2: no board has a buffered SPI channel '%s'\n", name);
+    if(rtapi_task_self() < 0) rtapi_print_msg(RTAPI_MSG_ERR, "hm2: no board has a buffered SPI channel '%s'\n", name);
     return NULL;
 }
 

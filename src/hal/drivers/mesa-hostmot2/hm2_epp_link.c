@@ -151,8 +151,8 @@ int epp_start(const struct epp_model *m)
     if(comp_id < 0) return comp_id;
     for(n = 0; n < EPP_BOARDS && m->ioaddr[n] >= 0 && r >= 0; n++) r = start_board(n);
     if(r < 0) {
-        stop_boards();
         hal_exit(comp_id);
+        stop_boards();
         return r;
     }
     return hal_ready(comp_id);
@@ -160,6 +160,6 @@ int epp_start(const struct epp_model *m)
 
 void epp_stop(void)
 {
-    stop_boards();
     hal_exit(comp_id);
+    stop_boards();
 }

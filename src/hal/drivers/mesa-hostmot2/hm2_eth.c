@@ -143,6 +143,7 @@ static int reach_board(int n)
         rtapi_print_msg(RTAPI_MSG_ERR, "hm2_eth: ERROR: board_rtnet=%s: only posix is supported here\n", net);
         return -EINVAL;
     }
+    b->told_iteration = 1u << 31; /* long ago */
     b->fd = -1;
     b->ip = board_ip[n];
     b->io.ops = &eth_ops;
@@ -200,8 +201,8 @@ int rtapi_app_main(void)
     r = start();
     if(r >= 0) r = hal_export_funct("hm2_eth.realtime-init", realtime_init, NULL, 0, 0, comp_id);
     if(r < 0) {
-        stop();
         hal_exit(comp_id);
+        stop();
         return r;
     }
     return hal_ready(comp_id);
@@ -209,6 +210,6 @@ int rtapi_app_main(void)
 
 void rtapi_app_exit(void)
 {
-    stop();
     hal_exit(comp_id);
+    stop();
 }

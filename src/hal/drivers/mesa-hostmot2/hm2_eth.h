@@ -60,7 +60,7 @@ struct eth_board {
     bool write_sent;
     bool lost;                         /* a packet did not fit or could not be sent */
     long long deadline;                /* of the answer, real time, ns */
-    rtapi_u32 iterations;
+    rtapi_u32 iterations, told_iteration; /* cycles; of the last message */
     int unanswered_writes;             /* single ones, outside of realtime */
     bool told_direct, told_full;       /* a direct read in a cycle; no room for a read */
 };

@@ -274,10 +274,13 @@ static int soft_error(struct eth_board *b, const char *what, int error, long lon
     rtapi_s32 limit = hal_get_si32(b->error_limit), step = hal_get_si32(b->error_increment);
     if(step < 1) step = hal_set_si32(b->error_increment, 1);
     rtapi_s64 level = (rtapi_s64)hal_get_si32(b->error_level) + step;
-    if(!hal_get_bool(b->error))
+    /* The first of a row, and not more than one a second: the operator sees it. */
+    if(!hal_get_si32(b->error_level) && b->iterations - b->told_iteration >= 1000000000 / (b->io.period + 1)) {
         rtapi_print_msg(RTAPI_MSG_ERR, "%s: receive_queued_reads: %s (%s) after %llins timeout=%llins\n", b->io.name,
                         what,
                         strerror(error), eth_now() - since, b->deadline - since);
+        b->told_iteration = b->iterations;
+    }
     b->io.needs_soft_reset = true;
     hal_set_bool(b->error, 1);
     hal_set_ui32(b->error_total, hal_get_ui32(b->error_total) + 1);

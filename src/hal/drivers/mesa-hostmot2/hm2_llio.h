@@ -76,7 +76,8 @@ static inline void hm2_llio_fail(struct hm2_llio *io)
 /* [init] Identifies the firmware, makes the pins and functions and writes the first values. config
  * may be NULL. io stays the caller's. 0 or -errno, with a message. */
 int hm2_register(struct hm2_llio *io, const char *config);
-/* [init] Lets the board's watchdog bite and forgets the board. */
+/* [init] Lets the board's watchdog bite and forgets the board. After hal_exit(): no thread may be in a
+ * function of the board any more. */
 void hm2_unregister(struct hm2_llio *io);
 
 #endif

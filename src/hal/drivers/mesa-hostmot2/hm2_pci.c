@@ -186,6 +186,6 @@ int rtapi_app_main(void)
 
 void rtapi_app_exit(void)
 {
-    rtapi_pci_unregister_driver(&driver);
     hal_exit(comp_id);
+    rtapi_pci_unregister_driver(&driver);
 }

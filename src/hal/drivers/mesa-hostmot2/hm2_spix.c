@@ -85,8 +85,8 @@ int rtapi_app_main(void)
     if(comp_id < 0) return comp_id;
     r = start();
     if(r < 0) {
-        stop();
         hal_exit(comp_id);
+        stop();
         return r;
     }
     return hal_ready(comp_id);
@@ -94,6 +94,6 @@ int rtapi_app_main(void)
 
 void rtapi_app_exit(void)
 {
-    stop();
     hal_exit(comp_id);
+    stop();
 }

@@ -158,6 +158,6 @@ int rtapi_app_main(void)
 
 void rtapi_app_exit(void)
 {
-    hm2_unregister(&board);
     hal_exit(comp_id);
+    hm2_unregister(&board);
 }

@@ -388,6 +388,7 @@ EXPORT_SYMBOL(hm2_register);
 void hm2_unregister(struct hm2_llio *io)
 {
     if(!io->hm2) return;
+    io->io_error = NULL; /* HAL has it back */
     hm2_watchdog_force_bite(io->hm2);
     flush(io->hm2);
     HM2_PRINT(io->hm2, "unregistered\n");

@@ -63,11 +63,16 @@ static void start(struct hm2 *hm2, void *state)
 static void prepare(struct hm2 *hm2, void *state, long period)
 {
     struct ioport *s = state;
-    int i;
+    int i, p;
     (void)period;
-    for(i = 0; i < s->ports; i++) s->out[i] = 0;
-    for(i = 0; i < hm2->pins; i++)
-        if(hm2->pin[i].out && hal_get_bool(hm2->pin[i].out)) s->out[i / s->width] |= 1u << i % s->width;
+    /* Whole words: the other thread may be writing them to the board. */
+    for(p = 0; p < s->ports; p++) {
+        const struct hm2_pin *pin = &hm2->pin[p * s->width];
+        rtapi_u32 word = 0;
+        for(i = 0; i < s->width; i++)
+            if(pin[i].out && hal_get_bool(pin[i].out)) word |= 1u << i;
+        s->out[p] = word;
+    }
 }
 
 /* A pin's bits of the registers; invert stays as it was while the pin is an input. */

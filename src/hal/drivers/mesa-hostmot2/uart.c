@@ -86,7 +86,7 @@ static struct channel *find(const char *name)
             if(!strcmp(s->channel[i].name, name) && s->channel[i].tx[DATA] && s->channel[i].rx[DATA])
                 return &s->channel[i];
     }
-    rtapi_print_msg(RTAPI_MSG_ERR, "hm2: no board has a serial channel '%s'\n", name);
+    if(rtapi_task_self() < 0) rtapi_print_msg(RTAPI_MSG_ERR, "hm2: no board has a serial channel '%s'\n", name);
     return NULL;
 }
 
