@@ -93,6 +93,7 @@ class Operator:
     def power_on(self):
         if self.stat.task_state == linuxcnc.STATE_ESTOP:
             self.key("F1")
+            self.until(lambda: self.stat.task_state != linuxcnc.STATE_ESTOP, "emergency stop is reset")
         self.key("F2")
         self.until(lambda: self.stat.task_state == linuxcnc.STATE_ON, "power")
 
