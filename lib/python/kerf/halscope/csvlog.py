@@ -77,7 +77,9 @@ def parse(lines):
             kind, put = (float, log.positions) if note[1] == "Position" else (int, log.scales)
             try:
                 put[:] = [kind(w) for w in words]
-            except ValueError:
+                if not all(map(math.isfinite, put)):
+                    raise ValueError
+            except (ValueError, OverflowError):     # no number, or more than fits
                 raise LogError(_("line %s: bad number in '%s'") % (number, line)) from None
             if len(put) != len(names):
                 raise LogError(_("line %s: %s values for %s channels") % (number, len(put), len(names)))
