@@ -4,6 +4,7 @@ from types import SimpleNamespace
 from kerf import pickconfig, tkstyle
 from kerf.haltools import latency_plot, latency_view, strip_chart
 from kerf.haltools.latency import ThreadFigures
+from kerf.haltools.session import ToolError
 from kerf.tree import Tree
 from tk_hand import Hand
 
@@ -47,6 +48,21 @@ hand.click(window.buttons["Reset"])
 print("resets:", meter.resets, window.elapsed.cget("text"))
 print("end bars:", latency_view.gathered([1, 2, 3, 4, 5, 6, 7], 1), latency_view.gathered([1, 2, 3], 5))
 hand.click(window.buttons["Exit"])
+
+
+def ended(run, *arguments):
+    """A window whose figures go: it does not stay as if all were well."""
+    try:
+        run(*arguments)
+        print("closed")
+    except ToolError as problem:
+        print("ended:", problem)
+
+
+meter.read = lambda: meter.figures[0].update(None, None, None, None)     # as hal.get_p() when its component was unloaded
+latency_view.PERIOD_MS = 10
+root = tkstyle.open_display("latency-histogram", "Test")
+ended(latency_view.run, latency_view.Histograms(root, "latency-histogram", [], "", ["servo"], latency_view.latency_bars(meter, True), meter.reset), 0)
 
 
 class Trace:
@@ -97,6 +113,10 @@ print("moves on:", lines()[0][0][1])
 hand.click(plot.buttons["+"])
 print("points:", plot.count.cget("text"))
 plot.close()
+trace.latencies = []
+options = latency_plot.options(["--hal", "-t", "100"])
+options.time = 10
+ended(strip_chart.show_strips, trace, options, "a machine")
 print([latency_plot.options(words).relative for words in ([], ["--relative"], ["--actual", "-H", "-b", "50000", "-s", "2000000"])])
 
 

@@ -13,7 +13,7 @@ from tkinter import filedialog, ttk
 
 from .. import tkstyle
 from ..language import _, N_
-from .session import facts
+from .session import facts, lost
 
 WIDTH, HEIGHT, MARGIN = 720, 220, 30   # pixels of one chart on a usual screen
 PERIOD_MS = 1000                       # between two looks at the model
@@ -94,7 +94,7 @@ class Histograms:
     """read(bins) gives the Bars of all charts; bins: those to show on each side of zero, None: all."""
 
     def __init__(self, root, title, lines, note, charts, read, reset, logarithmic=True, most_bins=0, platform=None):
-        self.root, self.read, self.reset_model, self.gears, self.timer = root, read, reset, [], None
+        self.root, self.read, self.reset_model, self.gears, self.timer, self.trouble = root, read, reset, [], None, None
         style = self.style = tkstyle.apply(root)
         root.title(title)
         self.start = time.monotonic()
@@ -166,7 +166,12 @@ class Histograms:
         self.elapsed.configure(text=_("Elapsed Time: %d s") % int(time.monotonic() - self.start))
 
     def tick(self):
-        self.show()
+        try:
+            self.show()
+        except Exception as error:
+            self.trouble = lost(error)
+            self.close()
+            return
         self.gears = [p for p in self.gears if p.poll() is None]
         self.gear_count.configure(text=str(len(self.gears)))
         self.timer = self.root.after(PERIOD_MS, self.tick)
@@ -205,10 +210,12 @@ class Histograms:
 
 
 def run(window: Histograms, seconds: int):
-    """Until the window is closed, or so many seconds."""
+    """Until the window is closed, or so many seconds. Raises ToolError when its figures went."""
     if seconds:
         window.root.after(seconds * 1000 + PERIOD_MS // 2, window.close)
     window.root.mainloop()
+    if window.trouble:
+        raise window.trouble
 
 
 def latency_bars(meter, show_tails: bool):

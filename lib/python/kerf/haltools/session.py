@@ -20,6 +20,11 @@ class ToolError(Exception):
     """Ends a tool with exit status 1; the text is for the user."""
 
 
+def lost(error: Exception) -> ToolError:
+    """What a window ends with whose figures cannot be read any more."""
+    return ToolError(f"nothing is measured any more: the realtime session was ended or changed ({error})")
+
+
 def halcmd(*words: str) -> str:
     """Executes a HAL command; its output. Raises ToolError with its complaint."""
     done = clock.run(["halcmd", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,

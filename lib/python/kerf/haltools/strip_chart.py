@@ -9,6 +9,7 @@ from tkinter import ttk
 from .. import tkstyle
 from ..language import _
 from .latency_view import HEIGHT, WIDTH
+from .session import lost
 
 POINTS, LEAST_POINTS, MOST_POINTS, STEP = 60, 10, 600, 10     # of a strip
 TICKS = 5           # marks on the axis of time
@@ -61,7 +62,8 @@ class Plot:
     """trace: threads (name, period in ns), sample(), rows[name] as Strip.show() wants them, reset(). o: the options."""
 
     def __init__(self, root, trace, o, banner):
-        self.root, self.trace, self.o, self.points, self.buttons, self.timer = root, trace, o, POINTS, {}, None
+        self.root, self.trace, self.o, self.points, self.buttons = root, trace, o, POINTS, {}
+        self.timer = self.trouble = None
         style = tkstyle.apply(root)
         px = style.px
         root.title("latency-plot")
@@ -108,8 +110,13 @@ class Plot:
             strip.show(rows, _("last %.3f us, largest %.3f us") % rows[-1][1:] if rows else "", self.points, self.label)
 
     def tick(self):
-        self.trace.sample()
-        self.show()
+        try:
+            self.trace.sample()
+            self.show()
+        except Exception as error:
+            self.trouble = lost(error)
+            self.close()
+            return
         if self.o.points and self.trace.count >= self.o.points:
             self.close()
         else:
@@ -121,7 +128,9 @@ class Plot:
 
 
 def show_strips(trace, o, banner):
-    """The window of latency-plot, until it is closed."""
+    """The window of latency-plot, until it is closed. Raises ToolError when its figures went."""
     root = tkstyle.open_display("latency-plot", "Latency-plot")
-    Plot(root, trace, o, banner)
+    plot = Plot(root, trace, o, banner)
     root.mainloop()
+    if plot.trouble:
+        raise plot.trouble
