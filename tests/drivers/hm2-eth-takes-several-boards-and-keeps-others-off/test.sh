@@ -36,7 +36,8 @@ board=(hm2_7i96s.0 hm2_7i96s.1 hm2_lite.0)
     printf 'setp hm2_7i96s.1.gpio.002.is_output 1\nsetp hm2_7i96s.1.gpio.002.out 1\nsetp hm2_lite.0.gpio.001.is_output 1\n'
     printf 'setp hm2_lite.0.gpio.001.out 1\nstart\nloadusr -w kerf-clock sleep 0.1\n'
     for b in "${board[@]}"; do
-        printf 'getp %s.gpio.001.in\ngetp %s.gpio.002.in\ngetp %s.packet-error-total\n' "$b" "$b" "$b"
+        printf 'getp %s.gpio.001.in\ngetp %s.gpio.002.in\ngetp %s.packet-error-total\ngetp %s.watchdog.has_bit\n' \
+            "$b" "$b" "$b" "$b"
     done
 } >> t.hal
 try() {

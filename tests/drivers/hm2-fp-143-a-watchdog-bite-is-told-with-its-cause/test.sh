@@ -23,6 +23,14 @@ peek 0xF260
 wait 1
 get %.watchdog.has_bit
 get %.gpio.000.in
+say has_bit set by hand: nothing pets any more
+setp %.watchdog.has_bit 1
+wait 0.02
+peek 0x0D00
+peek 0xF260
+setp %.watchdog.has_bit 0
+wait 0.01
+peek 0x0D00
 say a time that is shorter than one and a half periods is told
 setp %.watchdog.timeout_ns 1400000
 wait 0.01

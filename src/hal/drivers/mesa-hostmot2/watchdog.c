@@ -50,10 +50,15 @@ static void process(struct hm2 *hm2, void *state, long period)
     struct watchdog *s = state;
     (void)period;
     if(!(*s->status & HAS_BIT)) {
-        s->told = hal_get_bool(s->has_bit);
+        s->told = false;
         return;
     }
-    if(s->told) return;
+    if(hal_get_bool(s->has_bit)) { /* known; also when it was set by hand */
+        s->told = true;
+        hm2->io->needs_reset = true;
+        return;
+    }
+    if(s->told && hm2->io->needs_reset) return; /* the user has answered: the next write makes it good */
     HM2_ERR(hm2, "Watchdog has bit! (set the .has-bit pin to False to resume)\n");
     HM2_ERR(hm2, "no write reached the board for %u ns: its outputs are off; look at lateness of the thread (period "
             "%ld ns), at lost packets, and at watchdog.timeout_ns\n", s->timeout_known, hm2->io->period);
@@ -87,7 +92,8 @@ static void write_settings(struct hm2 *hm2, void *state, bool force)
     struct watchdog *s = state;
     rtapi_u32 timeout = hal_get_ui32(s->timeout_ns);
     if(hal_get_bool(s->has_bit)) return;
-    if(!hm2->written) {
+    if(!hm2->written) { /* a bite from before the driver was loaded counts no more */
+        if(force) hm2_queue_write(hm2, hm2_register_addr(&s->md, STATUS, 0), 0);
         hm2_write_changed(hm2, hm2_register_addr(&s->md, TIMER, 0), DISABLED, &s->timer, force);
         return;
     }
