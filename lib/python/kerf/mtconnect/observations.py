@@ -16,7 +16,7 @@ def timestamp(when=None):
     return when.strftime("%Y-%m-%dT%H:%M:%S.") + f"{when.microsecond // 1000:03d}Z"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Observation:
     """value: text, or for a table {entry: {cell: text}}."""
     sequence: int
