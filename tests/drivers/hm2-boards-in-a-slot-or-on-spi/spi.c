@@ -10,8 +10,9 @@ static int sim_close(int fd);
 #define ioctl sim_ioctl
 #define close sim_close
 #include <unistd.h>
-#include "src/hal/drivers/mesa-hostmot2/hm2_spi_link.c"
+#include <hal.h>
 #define hal_init(name) hal_init("kerf_bus")
+#include "src/hal/drivers/mesa-hostmot2/hm2_spi_link.c"
 #include DRIVER
 #undef ioctl
 #undef close

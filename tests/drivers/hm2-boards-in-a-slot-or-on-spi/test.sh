@@ -3,7 +3,7 @@
 # pins drive its registers; boards that do not answer, are unknown or damaged in transfer are told, and io_error stops all.
 top=$(cd ../../.. && pwd)
 rtlib=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
-trap 'rm -f kerf_*.c t.hal told "$rtlib"/kerf_{slot,bus,busx,port}.so' EXIT
+trap 'rm -f kerf_*.c t.hal told "$rtlib"/kerf_{slot,bus,busx,rpbus,port}.so' EXIT
 build() { # module source driver
     { echo "#define DRIVER \"src/hal/drivers/mesa-hostmot2/$3\""; cat "$2"; } > "$1.c"
     EXTRA_CFLAGS="-I$top -I$top/src/hal -I$top/src/hal/drivers/mesa-hostmot2" halcompile --install "$1.c" >&2 || exit 1
@@ -60,6 +60,10 @@ for path in /dev/spidev9.0 /dev/spidev3.0 /dev/spidev4.0; do
 done
 echo "SPI by place"
 drive kerf_busx hm2_7c81.1 "config=enable_raw,enable_raw spi_probe=17 spiclk_rate=10000,20000 spi_pull_miso=1 spi_noqueue=1"
+run | grep -v 'IO Pin'
+sed 's/kerf_bus/kerf_rpbus/' spi.c > kerf_rpspi.c
+build kerf_rpbus kerf_rpspi.c hm2_rpspi.c
+drive kerf_rpbus hm2_7c81.0 "config=enable_raw spi_probe=2 spi_pull_miso=2"
 run | grep -v 'IO Pin'
 for words in spi_probe=0 force_driver=spix_rpi5; do
     printf 'loadrt hostmot2\nloadrt kerf_busx %s\n' $words > t.hal

@@ -15,6 +15,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include "hm2_spi_link.h"
+#include "hm2_db25.h"
 
 #define READ 0xA000u
 #define WRITE 0xB000u
@@ -25,11 +26,6 @@
 #define COOKIE 0x55AACAFEu
 
 /* ---- Names of pins ----------------------------------------------------------- */
-
-#define DB25(p) \
-    p "-01/DB25-01", p "-02/DB25-14", p "-03/DB25-02", p "-04/DB25-15", p "-05/DB25-03", p "-06/DB25-16", \
-    p "-07/DB25-04", p "-08/DB25-17", p "-09/DB25-05", p "-11/DB25-06", p "-13/DB25-07", p "-15/DB25-08", \
-    p "-17/DB25-09", p "-19/DB25-10", p "-21/DB25-11", p "-23/DB25-12", p "-25/DB25-13"
 
 static const char *const io_7c81[] = {
     DB25("P1"), "J5-TX0", "J6-TX1", DB25("P2"), "J5-TXEN0", "J6-TXEN1", DB25("P7"), "P5-RX0", "P6-RX1",
@@ -238,4 +234,48 @@ void spi_board_stop(struct spi_board *b)
     hm2_unregister(&b->io);
     if(b->fd >= 0) close(b->fd);
     b->fd = -1;
+}
+
+/* ---- Places [init] -------------------------------------------------------------- */
+
+static struct spi_board *placed[SPI_PLACES];
+static int places_id, num_placed;
+
+static int start_place(const struct spi_places *p, int place)
+{
+    static const char *const usual[SPI_PLACES] = {"/dev/spidev0.0", "/dev/spidev0.1", "/dev/spidev1.0",
+                                                  "/dev/spidev1.1", "/dev/spidev1.2"};
+    struct spi_board *b = hal_malloc(sizeof *b);
+    int n = num_placed, khz = p->khz[n] > 0 ? p->khz[n] : p->default_khz;
+    const char *own = p->path ? p->path[n] : NULL;
+    if(!b) return -ENOMEM;
+    b->fd = -1;
+    b->queues = p->queues;
+    b->write_hz = (rtapi_u32)(khz + 1) * 1000;
+    b->read_hz = (rtapi_u32)((p->khz_read[n] > 0 ? p->khz_read[n] : khz) + 1) * 1000;
+    placed[num_placed++] = b;
+    return spi_board_start(b, p->driver, own && *own ? own : usual[place], places_id, p->config[n], placed, n);
+}
+
+int spi_places_start(const struct spi_places *p)
+{
+    int place, r = 0;
+    if(!(p->probe & ((1 << p->most) - 1))) {
+        rtapi_print_msg(RTAPI_MSG_ERR, "%s: spi_probe=%d looks nowhere: add up 1 SPI0/CE0, 2 SPI0/CE1, 4 SPI1/CE0, "
+                        "8 SPI1/CE1, 16 SPI1/CE2\n", p->driver, p->probe);
+        return -EINVAL;
+    }
+    places_id = hal_init(p->driver);
+    if(places_id < 0) return places_id;
+    for(place = 0; place < p->most && r >= 0; place++)
+        if(p->probe >> place & 1) r = start_place(p, place);
+    if(r >= 0) return hal_ready(places_id);
+    spi_places_stop();
+    return r;
+}
+
+void spi_places_stop(void)
+{
+    hal_exit(places_id);
+    while(num_placed > 0) spi_board_stop(placed[--num_placed]);
 }

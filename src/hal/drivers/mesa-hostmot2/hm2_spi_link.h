@@ -31,6 +31,19 @@ struct spi_board {
  * among before[n]. 0 or -errno, with a message. */
 int spi_board_start(struct spi_board *b, const char *driver, const char *path, int comp_id, const char *config,
                     struct spi_board *const *before, int n);
+/* Boards by bus and chip select: bit n of probe is place n of SPI0/CE0, CE1, SPI1/CE0, CE1, CE2. Lists
+ * in the order of the boards; a path of NULL or empty is the usual one, a rate up to 0 the default. */
+#define SPI_PLACES 5
+struct spi_places {
+    const char *driver;
+    int probe, most;                   /* places that this driver knows */
+    int khz[SPI_PLACES], khz_read[SPI_PLACES], default_khz;
+    char **path, **config;
+    bool queues;
+};
+/* [init] Component and boards: 0 or -errno, with a message; and their end. */
+int spi_places_start(const struct spi_places *p);
+void spi_places_stop(void);
 /* [init] */
 void spi_board_stop(struct spi_board *b);
 
