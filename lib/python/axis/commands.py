@@ -61,7 +61,8 @@ def make(app):
                     return
                 c.state(linuxcnc.STATE_ON)
                 c.wait_complete()
-                if app.settings.flag("DISPLAY", "HOMING_PROMPT") and not app.all_homed():
+                prompt = app.settings.flag("DISPLAY", "HOMING_PROMPT") and not app.all_homed()
+                if prompt and s.task_state == linuxcnc.STATE_ON:
                     if dialogs.ask(root, _("Homing request"), _("Do you want to home the machine now?"), "question", 0,
                                    _("Ok"), _("Cancel"), escape=1) == 0:
                         commands.home_all_joints()
@@ -102,7 +103,7 @@ def make(app):
                 app.reload_file(str(args[0]) != "0" if args and str(args[0]) in ("0", "1") else True)
 
         def send_mdi_command(text):
-            if app.ensure_mode(linuxcnc.MODE_MDI):
+            if not app.refused_while_homing() and app.ensure_mode(linuxcnc.MODE_MDI):
                 c.mdi(str(text))
 
         def save_gcode(*event):
@@ -326,6 +327,7 @@ def make(app):
 
         def set_teleop_mode(*event):
             if not app.running() and s.kinematics_type != linuxcnc.KINEMATICS_IDENTITY:
+                app.jogger.stop_all()
                 app.ensure_mode(linuxcnc.MODE_MANUAL)
                 app.set_motion_teleop(v.teleop_mode.get())
 

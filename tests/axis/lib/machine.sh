@@ -3,10 +3,11 @@
 export KERF_CLOCK=virtual
 top=$(cd "$TEST_DIR/../../.." && pwd)
 export PYTHONPATH="$top/tests/axis/lib:$top/tests/lib:$PYTHONPATH"
-screen_test() { # name of a sample machine, display script, [program]
-    rm -rf machine home; cp -r "$top/configs/sim/$1" machine; mkdir home
-    sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" machine/$1.ini
-    [ -z "${ini_edit:-}" ] || sed -i "$ini_edit" machine/$1.ini
-    HOME=$PWD/home "$top/tests/lib/${screen_server:-with-display}" ${screen_size:-1024x768} linuxcnc -r -D "$PWD/$2 ${3:-}" machine/$1.ini > screen.log 2> screen.err < /dev/null
+screen_test() { # name of a sample machine (or its folder/name), display script, [program]
+    local ini=machine/${1##*/}.ini
+    rm -rf machine home; cp -r "$top/configs/sim/${1%/*}" machine; mkdir home
+    sed -i "s|^PROGRAM_PREFIX.*|PROGRAM_PREFIX = $top/nc_files|" "$ini"
+    [ -z "${ini_edit:-}" ] || sed -i "$ini_edit" "$ini"
+    HOME=$PWD/home "$top/tests/lib/${screen_server:-with-display}" ${screen_size:-1024x768} linuxcnc -r -D "$PWD/$2 ${3:-}" "$ini" > screen.log 2> screen.err < /dev/null
     echo "status $?"
 }

@@ -8,14 +8,14 @@ def still_jogging(op):
     """A joint that moves in manual mode although no key is held (homing and its like come to their own end)."""
     op.wait(1.5)
     s = op.stat
-    if s.task_mode != linuxcnc.MODE_MANUAL or s.task_state != linuxcnc.STATE_ON or any(j["homing"] for j in s.joint[:3]):
+    if s.task_mode != linuxcnc.MODE_MANUAL or s.task_state != linuxcnc.STATE_ON or any(j["homing"] for j in s.joint[:s.joints]):
         return None
     if op.app.jogger.running:
         return f"jogs without an owner's key: {op.app.jogger.running}"
     before = s.actual_position
     op.wait(0.3)
     s = op.stat
-    if s.task_mode == linuxcnc.MODE_MANUAL and not any(j["homing"] for j in s.joint[:3]) and \
+    if s.task_mode == linuxcnc.MODE_MANUAL and not any(j["homing"] for j in s.joint[:s.joints]) and \
             any(abs(a - b) > 1e-3 for a, b in zip(before, s.actual_position)):
         return "moves although nobody asks for it"
     return None
@@ -24,25 +24,9 @@ def still_jogging(op):
 def outside_limits(op):
     """Homed joints beyond their soft limits."""
     s = op.stat
-    for n, joint in enumerate(s.joint[:3]):
+    for n, joint in enumerate(s.joint[:s.joints]):
         if joint["homed"] and not joint["min_position_limit"] - 1e-3 <= s.joint_actual_position[n] <= joint["max_position_limit"] + 1e-3:
             yield f"joint {n} at {s.joint_actual_position[n]}"
-
-
-def disagreement(op):
-    app, s, v = op.app, op.stat, op.app.vars
-    pairs = {"task_state": s.task_state, "task_mode": s.task_mode, "interp_state": s.interp_state, "spindledir": s.spindle[0]["direction"],
-             "flood": bool(s.flood), "mist": bool(s.mist), "feedrate": round(100 * s.feedrate), "rapidrate": round(100 * s.rapidrate),
-             "task_paused": int(s.task_paused), "optional_stop": int(s.optional_stop), "block_delete": int(s.block_delete)}
-    for name, value in pairs.items():
-        if getattr(v, name).get() != value:
-            yield f"{name}: screen {getattr(v, name).get()!r}, machine {value!r}"
-    on, idle = s.task_state == linuxcnc.STATE_ON, s.interp_state == linuxcnc.INTERP_IDLE
-    op.root.update()
-    for path, wanted in ((".toolbar.program_run", on and idle), (".toolbar.program_stop", on and not idle),
-                         (".toolbar.machine_power", s.task_state != linuxcnc.STATE_ESTOP), (".pane.top.tabs.fmanual.jogf.jog.jogplus", on and idle)):
-        if op.enabled(path) != wanted:
-            yield f"{path}: enabled {op.enabled(path)}, should be {wanted}"
 
 
 def work(op):

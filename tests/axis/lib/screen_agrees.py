@@ -93,7 +93,7 @@ def widgets(op, s):
     tcl = op.root.tk
     for place, wanted in rules(op, s):
         state = entry_state(op, *place) if isinstance(place, tuple) else str(tcl.call(place, "cget", "-state"))
-        if state != ("normal" if wanted else "disabled"):
+        if state == "not there" or (state != "disabled") != wanted:
             yield f"{place}: {state}, should be {'normal' if wanted else 'disabled'}"
     joints = s.motion_mode == linuxcnc.TRAJ_MODE_FREE and s.kinematics_type != linuxcnc.KINEMATICS_IDENTITY
     for frame, wanted in (("axes", not joints), ("joints", joints)):

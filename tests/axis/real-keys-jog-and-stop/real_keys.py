@@ -8,7 +8,8 @@ import sys
 import linuxcnc
 import operator_lib as lib
 from axis import dialogs
-from operator_checks import disagreement, still_jogging, work
+import screen_agrees
+from operator_checks import still_jogging, work
 from tkinter import filedialog
 
 SEED, STEPS = int(os.environ.get("SEED", "7")), int(os.environ.get("STEPS", "70"))
@@ -119,7 +120,7 @@ def script(op):
                 x("keyup", key)
             held.clear()
             op.wait(0.3)
-            for wrong in (still_jogging(op), *disagreement(op)):
+            for wrong in (still_jogging(op), *screen_agrees.all_of_it(op)):
                 if wrong:
                     faults += 1
                     print("step", step, wrong)
