@@ -54,10 +54,11 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
 
     def __init__(self, root, ini_path):
         self.root = root
-        self.probe = gl.Probe()
+        self.record = Record()
+        fault = self.record.by_fault()
+        self.probe = gl.Probe(f"the screen before {fault}" if fault else "")
         self.ini = linuxcnc.ini(ini_path)
         self.recorder = Recorder("axis", ini_path, Tree.find().version())
-        self.record = Record()
         self.former = self.record.former     # what a screen that crashed left; None: the session is new
         root.report_callback_exception = self.callback_failed
         self.settings = read(self.ini)
@@ -89,6 +90,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.undo_lines = None   # MDI lines that take the last touch off back
         self.children, self.told_children = [], set()
         self.tab_names = []      # components of PyVCP panels in tabs
+        self.loaded = {}         # components of POSTGUI in processes of their own: name -> process
         self.writers = {}        # which pins had one when widgets were hidden
         self.place = ""          # file and line of a subroutine that runs
         self.panel = None

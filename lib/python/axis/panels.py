@@ -171,6 +171,7 @@ class PanelsPart:
                 name = os.path.expanduser(name)
                 lines.append(["haltcl", "-i", ini, name, *args] if name.endswith(".tcl") else ["halcmd", "-i", ini, "-f", name])
             lines += [["halcmd", *line.split()] for line in self.ini.findall("HAL", "POSTGUI_HALCMD") or []]
+        before = set(hal.query.comps()) if lines else ()
         for words in lines:
             status = clock.run(words).returncode
             if status:
@@ -178,6 +179,8 @@ class PanelsPart:
                 self.exit_status = status
                 self.root.destroy()
                 return
+        if lines:
+            self.loaded = {name: comp["pid"] for name, comp in hal.query.comps().items() if name not in before and comp["type"] == hal.CompType.USER}
         self.show()
 
     def own_components(self):
@@ -192,11 +195,15 @@ class PanelsPart:
         return sorted(pids - {os.getpid()})
 
     def look_at_children(self):
-        """A program in a tab that crashed is told once; the screen goes on."""
+        """A program in a tab, or one that POSTGUI loaded, that ended is told once; the screen goes on."""
+        for name, pid in list(self.loaded.items()):
+            if not hal.component_exists(name):       # of the dead HAL takes the pins away, its bits fall
+                del self.loaded[name]
+                self.notifications.add("error", self.translate("%s (process %d) has ended: what it did is no longer done") % (name, pid))
         for i, (child, line) in enumerate(self.children):
             if child.poll() and i not in self.told_children and not line.startswith(LOADUSR):
                 self.told_children.add(i)
-                self.notifications.add("error", f"{line}: {self.translate('ended with status %d') % child.returncode}")
+                self.notifications.add("error", f"{line}: {self.translate('ended with status %d') % (child.returncode if child.returncode > 0 else 128 - child.returncode)}")
 
     def end_children(self):
         """Programs of tabs end with the screen; components that halcmd loaded do not."""

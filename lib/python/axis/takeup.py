@@ -42,7 +42,7 @@ class TakeUpPart:
             elif pin["dir"] == hal.HAL_IN and pin["value"] and pin["type"] != hal.HAL_PORT:
                 values[name] = pin["value"]      # of setp
         was = self.former or {}
-        self.record.save(links=links, values=values, parts=self.parts(), writers=self.writers, folder=self.loader.folder,
+        self.record.save(links=links, values=values, parts=self.parts(), loaded=self.loaded, writers=self.writers, folder=self.loader.folder,
                          program=was.get("program") if self.taking_up else self.program_kept(), view=self.preview.camera.view,
                          variables={name: getattr(self.vars, name).get() for name in VARIABLES})
 
@@ -92,6 +92,7 @@ class TakeUpPart:
         self.stat.poll()
         if self.stat.task_mode == linuxcnc.MODE_MDI:
             self.raise_tab("mdi")
+        self.loaded = self.former.get("loaded", {})
         self.taking_up = bool(self.former.get("program"))
         self.update()
         self.poll_errors()

@@ -30,9 +30,10 @@ def library(platform="glx"):
 class Probe:
     """Tries OpenGL in a process of its own: a driver that crashes or hangs does no harm to the screen."""
 
-    def __init__(self):
+    def __init__(self, against=""):
+        """against: a reason not to use it, unless the user insists."""
         choice = os.environ.get("KERF_OPENGL", "")
-        self.answer = {"0": "KERF_OPENGL=0", "1": None}.get(choice, "")
+        self.answer = {"0": "KERF_OPENGL=0", "1": None}.get(choice, against)
         self.child = None
         if self.answer == "":
             path = os.pathsep.join(filter(None, sys.path))       # it finds the modules that we find

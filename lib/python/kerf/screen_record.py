@@ -18,6 +18,7 @@ import time
 VARIABLE, CRASH = "KERF_SCREEN_RECORD", "KERF_SCREEN_CRASH"       # path of the record; how the screen before ended
 ON_REQUEST = {-signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP, -signal.SIGQUIT}     # of somebody who wants the end
 MOST, WITHIN_S = 3, 60.0     # so many crashes within this time are too many
+FAULTS = ("SIGSEGV", "SIGBUS", "SIGABRT", "SIGILL", "SIGFPE")     # of a library, a driver of graphics most likely
 RETRY_S = 5.0                # while a program runs on without a screen
 
 
@@ -34,6 +35,10 @@ class Record:
                     self.former = json.load(f)
             except (OSError, ValueError):
                 self.former = {}
+
+    def by_fault(self):
+        """How the one before ended, where that was a fault of a library; else ""."""
+        return self.crash if self.crash and any(name in self.crash for name in FAULTS) else ""
 
     def save(self, **what):
         """From now on a crash is one that the machine outlives."""

@@ -10,6 +10,7 @@ rm -f tabs others
 screen_test mill living.py "$PWD/part.ngc"
 cat machine/transcript
 grep -h "DISPLAY program\|started again" screen.err | sed 's|program [^ ]*/|program |; s|^/.*/||'
+grep -h "the screen before" screen.err screen.log
 grep -i -A12 traceback screen.err screen.log
 ls home/.axis_reports | wc -l
 for pid in $(cat tabs); do grep -qs "^State:.[^ZX]" /proc/$pid/status && echo "tab is left"; done
