@@ -21,6 +21,8 @@ POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("
 STATES = {linuxcnc.STATE_ESTOP: N_("ESTOP"), linuxcnc.STATE_ON: N_("ON"), linuxcnc.STATE_OFF: N_("OFF")}
 ERROR_POLL_MS = 200
 OPTIONS = ("block_delete", "optional_stop")
+SILENT_S = 3.0           # without a cycle of the controller
+RETRY_S = 5.0            # between two looks for a server that is gone
 LATE_S = 1.0             # keys and clicks older than that start nothing
 STALE_S = 0.3            # offsets must rest so long before the preview is read anew
 
@@ -51,6 +53,27 @@ class FollowPart:
         if alive:
             self.root.after(self.settings.cycle_ms, self.update)
 
+    out_of_touch = False     # what is shown is old
+    life, life_at = None, 0.0
+    retry_at = 0.0           # of a lost connection
+
+    def look_for_life(self):
+        """The controller counts its cycles: while the count stands nobody knows what it does."""
+        now = clock.now()
+        if self.stat.heartbeat != self.life:
+            self.life, self.life_at = self.stat.heartbeat, now
+            if self.out_of_touch:
+                self.out_of_touch = False
+                self.notifications.add("info", self.translate("The controller answers again."))
+        elif now - self.life_at > SILENT_S:
+            self.lost("")
+
+    def lost(self, why):
+        if not self.out_of_touch:
+            self.out_of_touch = True
+            text = self.translate("The controller does not answer: what is shown is old.")
+            self.notifications.add("error", f"{text} {why}".strip())
+
     def gets_on(self):
         """Called in each update cycle. After a longer rest everything that waits in the queue of events is late."""
         now = clock.now()
@@ -74,17 +97,25 @@ class FollowPart:
 
     def tick(self):
         """Shows the present status; False when the controller is gone and the screen ends."""
+        if self.out_of_touch and clock.now() < self.retry_at:
+            return True
         try:
             self.stat.poll()
+            self.look_for_life()
             self.gets_on()
             self.jogger.beat()
             self.follow_status()
             self.preview.look()
         except linuxcnc.error as e:
-            self.jogger.stop_all()
-            print(f"axis: the controller does not answer: {e}", file=sys.stderr)
-            self.root.destroy()
-            return False
+            self.jogger.running.clear()          # they have ended: there are no heartbeats, or there is nothing that moves
+            if not self.out_of_touch:
+                print(f"axis: the controller does not answer: {e}", file=sys.stderr)
+            if "LINUXCNC_SESSION" in os.environ:  # the launcher tells why
+                self.root.destroy()
+                return False
+            self.lost(str(e))
+            self.retry_at = clock.now() + RETRY_S
+            return True
         live = self.user.get("user_live_update")
         if live:
             try:

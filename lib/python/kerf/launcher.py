@@ -602,7 +602,7 @@ class Session:
             os.close(own)
             if status:
                 print(f"DISPLAY program {command[0]} {ended(status)}", file=sys.stderr, flush=True)
-            if not self.restarts.crashed(status):
+            if not self.restarts.crashed(status, self.display.pid):
                 return status_of(status)
             crash = ended(status)
             if self.restarts.too_many():

@@ -42,6 +42,7 @@ class Record:
 
     def save(self, **what):
         """From now on a crash is one that the machine outlives."""
+        what["pid"] = os.getpid()
         if not self.path or what == self.saved:
             return
         try:
@@ -67,9 +68,11 @@ class Restarts:
     def __init__(self, path):
         self.path, self.crashes = path, []
 
-    def crashed(self, returncode):
-        """Did the screen end so that another one shall come?"""
-        return os.path.exists(self.path) and returncode not in ON_REQUEST
+    def crashed(self, returncode, pid):
+        """Did the process of the display end so that another one shall come? A script that runs a screen is no screen."""
+        if returncode == 0 or returncode in ON_REQUEST or not os.path.exists(self.path):
+            return False
+        return bool(self.crashes) or self.left().get("pid") == pid
 
     def too_many(self):
         """To be called at each crash."""

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # FP-060, FP-061: a continuous jog has one owner. When that ends, is killed, or its connection is cut, the
 # axis stops; a jog of another program, and an incremental one, goes on.
+import os
+import re
 import signal
 import socket
 import struct
@@ -130,6 +132,12 @@ c.jog_held(0, 0)
 print("beside commands:", c.wait_complete() != RCS_ERROR, c.serial == poll().echo_serial_number)
 sleep(0.5)
 print("after that:", "moves" if moves(0) else "rests", messages())
+home()
+Path("far.nml").write_text(re.sub(r"^(P +xemc +\S+ +)LOCAL", r"\1REMOTE", Path(os.environ["NMLFILE"]).read_text(), flags=re.M))
+child = client("linuxcnc.nmlfile = 'far.nml'; c = linuxcnc.command()" + BEATS.format(joint=0, axis=1, n=10, pause=0.1))
+need(lambda s: s.position[1] > 1, "jog")
+print("a remote client that is silent: stops", clock.wait_until(lambda: not moves(1), 10, 0.02), messages(), "connected", child.poll() is None)
+kill(child)
 home()
 remote = socket.create_connection(("127.0.0.1", port()))
 message = struct.pack(">iqiidi", 124, 48, 0, 0, 5.0, 0)

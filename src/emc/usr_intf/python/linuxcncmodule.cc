@@ -149,6 +149,8 @@ struct PropertyMaker {
 void poll_stat(Stat &s) {
     if (!s.channel->valid()) raise_error("emcStatusBuffer invalid err=" + std::to_string(s.channel->error_type));
     if (s.channel->peek() == EMC_STAT_TYPE) s.data = *s.channel->get<EMC_STAT>();
+    else if (s.channel->remote() && (s.channel->status == CMS_NO_SERVER_ERROR || s.channel->status == CMS_TIMED_OUT))
+        raise_error("emcStatusBuffer: no answer of the server err=" + std::to_string(s.channel->error_type));
     s.polled = true;
     attach_tools();
 }
