@@ -112,12 +112,13 @@ class Reading:
         """What the process tells until it ends, also when something that it started keeps the pipe open."""
         data = b""
         while True:
+            ended = self.ended()         # before the look: what it told until then is there
             if select.select([self.reports], [], [], LOOK_S)[0]:
                 got = os.read(self.reports, 1 << 20)
                 if not got:
                     return
                 data += got
-            elif self.ended():
+            elif ended:
                 return
             while data:
                 stream = io.BytesIO(data)

@@ -50,7 +50,7 @@ class TakeUpPart:
         if not self.loaded_file or self.loading:
             return (self.record.saved or {}).get("program")
         return {"loaded": self.loaded_file, "shown": self.shown_file, "kept": self.kept, "filtered": self.is_filtered,
-                "disk": self.disk_state and list(self.disk_state), "changed": self.changed_on_disk}
+                "disk": self.disk_state and list(self.disk_state), "text": self.loaded_text and list(self.loaded_text), "changed": self.changed_on_disk}
 
     # -- of the one before -----------------------------------------------------------------
 
@@ -126,6 +126,8 @@ class TakeUpPart:
             try:
                 self.loaded_file, self.shown_file, self.kept, self.is_filtered = was["loaded"], was["shown"], was["kept"], was["filtered"]
                 self.disk_state, self.changed_on_disk = was["disk"] and tuple(was["disk"]), was["changed"]
+                self.loaded_text = was["text"] and tuple(was["text"])
+                self.loads += 1
                 self.user["loaded_file"] = self.loaded_file
                 self.code.load(self.kept, self.beside(line_starts, self.kept))
                 self.read_preview(quiet=True)

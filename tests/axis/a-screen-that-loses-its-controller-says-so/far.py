@@ -53,7 +53,7 @@ subprocess.run(["xdotool", "windowfocus", window, "keydown", "Right"], check=Tru
 until(speed, "a jog")
 session.kill("linuxcncsvr")
 until(lambda: not speed(), "its end", 20)
-until(lambda: Path("../state").read_text().count("The controller does not answer") == 2, "the lost connection is told")
+until(lambda: told("no answer of the server"), "the lost connection is told")
 subprocess.run(["xdotool", "keyup", "Right"], check=True)
 time.sleep(1)
 print("server gone: told, stands:", not speed(), "the screen is there:", screen.poll() is None)
