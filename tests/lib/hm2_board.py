@@ -104,7 +104,8 @@ def serial_firmware():
         module(25, 0, 1, 1, 0x6000, 3, 0x1F),
         module(14, 0, 1, 1, 0x6800, 3, 0x7, 0x10),
     ]
-    pins = [pin(193, 0, code + kind, output) for code in range(1, 5) for kind, output in ((0, False), (0, True), (16, True))]
+    pins = [pin(193, 0, code + kind, output) for code in range(1, 5)
+            for kind, output in ((0, False), (0, True), (16, True))]
     pins += [pin(8, unit, code, code < 3) for unit in range(2) for code in (1, 2, 3)]
     pins += [pin(24, 0, code, code < 3) for code in (1, 2, 3)] + [pin(25, 0, code, code < 3) for code in (1, 2, 3)]
     return modules, pins + [pin()] * (51 - len(pins))
@@ -141,9 +142,11 @@ class Card:
         self.memory[self.REVISION] = 14
         self.free = self.RECORDS
         self.outputs = [0, 0, 0]
-        table = [self.record(16, 1, 0x80, 0, 1, 0x40, '', 'Output'), self.record(10, 2, 0x80, 0, 100, 0x42, 'pct', 'SpinOut'),
+        table = [self.record(16, 1, 0x80, 0, 1, 0x40, '', 'Output'),
+                 self.record(10, 2, 0x80, 0, 100, 0x42, 'pct', 'SpinOut'),
                  self.record(1, 7, 0x80, 0, 0, 0x44, '', 'SpinEna'), self.record(5, 0, 0x80, 0, 0, 0x45, '', 'pad'),
-                 self.record(16, 1, 0x00, 0, 1, 0x46, '', 'Input'), self.record(10, 3, 0x00, -10, 10, 0x48, 'V', 'Analog'),
+                 self.record(16, 1, 0x00, 0, 1, 0x46, '', 'Input'),
+                 self.record(10, 3, 0x00, -10, 10, 0x48, 'V', 'Analog'),
                  self.record(6, 0, 0x00, 0, 0, 0x49, '', 'pad'), self.record(8, 8, 0x00, 1, 4, 0x4A, '', 'Enc'),
                  self.record(1, 7, 0x00, 0, 0, 0x4B, '', 'SpinIsOn')]
         extra = [self.record(32, 4, 0x40, 0, 9, self.UNIT, '', 'NVUnitNumber'),
@@ -217,8 +220,8 @@ class SerialPort:
     def set_up(self, mask):
         for channel in range(8):
             card = self.cards.get(channel) if mask >> channel & 1 else None
-            self.put_user(channel, [card.serial, int.from_bytes(card.name.encode(), 'little'), card.PTOC | card.GTOC << 16]
-                          if card else [0, 0, 0])
+            name = int.from_bytes(card.name.encode(), 'little') if card else 0
+            self.put_user(channel, [card.serial, name, card.PTOC | card.GTOC << 16] if card else [0, 0, 0])
 
     def do_it(self, mask):
         self.r.put(self.DATA, 0)

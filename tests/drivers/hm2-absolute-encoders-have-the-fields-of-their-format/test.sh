@@ -1,6 +1,6 @@
 #!/bin/bash
-# SSI, BiSS and Fanuc encoders: fields by the format, over 32-bit words, Gray code, parts and turns; data that stays invalid
-# is told once; wrong formats are named.
+# SSI, BiSS and Fanuc encoders: fields by the format, over 32-bit words, Gray code, parts and turns; data that stays
+# invalid is told once; wrong formats are named.
 ../../lib/with-hm2-board -f serial -c "enable_raw num_dplls=0 ssi_chan_1=nothing%4penc%12efault%1b%1pbits%3f \
 biss_chan_0=pos%17geraw%20um%20sangle%8u fanuc_chan_0=AA64" <<'END'
 addf %.trigger-encoders servo

@@ -1,4 +1,5 @@
-/* hm2_spi or hm2_spix (DRIVER) with a bus of its own: a 7C81, whose answers are damaged when register 0xF000 says so. */
+/* hm2_spi or hm2_spix (DRIVER) with a bus of its own: a 7C81, whose answers are damaged when register 0xF000 says so.
+ * Devices with 9 in their names are not there, 3 is another board, 4 does not answer. */
 #include "tests/lib/hm2_registers.h"
 #include <rtapi.h>
 #include <sys/ioctl.h>

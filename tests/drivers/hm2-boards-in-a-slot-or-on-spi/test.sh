@@ -1,6 +1,7 @@
 #!/bin/bash
-# hm2_pci, hm2_spi and hm2_spix, built here on a slot and a bus that are memory: the board is found by what it says, its
-# pins drive its registers; boards that do not answer, are unknown or damaged in transfer are told, and io_error stops all.
+# hm2_pci, hm2_spi and hm2_spix, built here on a slot and a bus that are memory: the board is found by what it says,
+# its pins drive its registers; boards that do not answer, are unknown or damaged in transfer are told, and io_error
+# stops all.
 top=$(cd ../../.. && pwd)
 rtlib=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
 trap 'rm -f kerf_*.c t.hal told "$rtlib"/kerf_{slot,bus,busx,rpbus,port}.so' EXIT
@@ -59,7 +60,8 @@ for path in /dev/spidev9.0 /dev/spidev3.0 /dev/spidev4.0; do
     run | grep -v unload
 done
 echo "SPI by place"
-drive kerf_busx hm2_7c81.1 "config=enable_raw,enable_raw spi_probe=17 spiclk_rate=10000,20000 spi_pull_miso=1 spi_noqueue=1"
+drive kerf_busx hm2_7c81.1 "config=enable_raw,enable_raw spi_probe=17 \
+spiclk_rate=10000,20000 spi_pull_miso=1 spi_noqueue=1"
 run | grep -v 'IO Pin'
 sed 's/kerf_bus/kerf_rpbus/' spi.c > kerf_rpspi.c
 build kerf_rpbus kerf_rpspi.c hm2_rpspi.c

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Two boards in one thread, asked together and then read, and one that no table knows; firewall rules as documented, with
-# programs of these names that only write down what they were asked, and taken away at the end.
+# Two boards in one thread, asked together and then read, and one that no table knows; firewall rules as documented,
+# with programs of these names that only write down what they were asked, and taken away at the end.
 . ../../lib/hm2-address
 first=$hm2_address second=${hm2_address%.*}.251 third=${hm2_address%.*}.252
 scratch=$(mktemp -d)
@@ -33,7 +33,8 @@ board=(hm2_7i96s.0 hm2_7i96s.1 hm2_lite.0)
     for b in "${board[@]}"; do echo "setp $b.packet-read-timeout 2000000000"; echo "addf $b.read-request servo"; done
     for b in "${board[@]}"; do echo "addf $b.read servo"; done
     for b in "${board[@]}"; do echo "addf $b.write servo"; done
-    printf 'setp hm2_7i96s.1.gpio.002.is_output 1\nsetp hm2_7i96s.1.gpio.002.out 1\nsetp hm2_lite.0.gpio.001.is_output 1\n'
+    printf 'setp hm2_7i96s.1.gpio.002.is_output 1\nsetp hm2_7i96s.1.gpio.002.out 1\n'
+    printf 'setp hm2_lite.0.gpio.001.is_output 1\n'
     printf 'setp hm2_lite.0.gpio.001.out 1\nstart\nloadusr -w kerf-clock sleep 0.1\n'
     for b in "${board[@]}"; do
         printf 'getp %s.gpio.001.in\ngetp %s.gpio.002.in\ngetp %s.packet-error-total\ngetp %s.watchdog.has_bit\n' \

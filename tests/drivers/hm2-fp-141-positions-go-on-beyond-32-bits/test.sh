@@ -1,6 +1,6 @@
 #!/bin/bash
-# FP-141: more than 2^32 counts of an encoder and of a step generator, either way, with an accelerated counter (150,000
-# cycles): the speed of the position never shows a jump, and the position is the true one at the end.
+# FP-141: more than 2^32 counts of an encoder and of a step generator, either way, with an accelerated counter
+# (150,000 cycles): the speed of the position never shows a jump, and the position is the true one at the end.
 top=$(cd ../../.. && pwd)
 rtlib=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
 trap 'rm -f kerf_fast_board.c t.hal "$rtlib/kerf_fast_board.so"' EXIT

@@ -1,6 +1,7 @@
 #!/bin/bash
-# The board's watchdog runs from the first write on and only writes pet it. When it bites, outputs let go, has_bit rises
-# and the cause is told, once; nothing goes out until the operator clears has_bit, then everything is written again.
+# The board's watchdog runs from the first write on and only writes pet it. When it bites, outputs let go, has_bit
+# rises and the cause is told, once; nothing goes out until the operator clears has_bit, then everything is written
+# again.
 ../../lib/with-hm2-board <<'END' | sed 's/threadbeat =[1-9][0-9]*/threadbeat goes on/'
 get %.watchdog.has_bit
 setp %.gpio.000.is_output 1

@@ -1,7 +1,8 @@
 #!/bin/bash
-# A lost packet costs nothing but is counted: pins keep their values, settings are written again. When
-# packet-error-level reaches packet-error-limit, io_error stops all transfers, the board's watchdog switches the outputs off, it is told
-# once, and the operator can go on without loading anew. Also (FP-142): health pins for the operator's stop chain.
+# A lost packet costs nothing but is counted: pins keep their values, settings are written again. When packet-error-
+# level reaches packet-error-limit, io_error stops all transfers, the board's watchdog switches the outputs off, it
+# is told once, and the operator can go on without loading anew. Also (FP-142): health pins for the operator's stop
+# chain.
 ../../lib/with-hm2-board <<'END' | uniq
 poke 0xF200 0x100
 wait 0.003
@@ -23,7 +24,7 @@ get %.packet-error-total
 peek 0x1100
 wait 1
 say an answer that comes not at all
-setp %.packet-read-timeout 100000000
+setp %.packet-read-timeout 1000000000
 poke 0xF000 1
 wait 0.01
 get %.packet-error-total

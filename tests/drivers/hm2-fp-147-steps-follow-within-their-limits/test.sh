@@ -1,6 +1,7 @@
 #!/bin/bash
 # Times of the pulses are in the board's registers as set, in their order, with more than they hold cut and told;
-# the speed never goes above what they allow, nor above maxvel, and never turns its sign. The position follows and stops where it was sent.
+# the speed never goes above what they allow, nor above maxvel, and never turns its sign. The position follows and
+# stops where it was sent.
 ../../lib/with-hm2-board <<'END'
 setp %.stepgen.00.steplen 2000
 setp %.stepgen.00.stepspace 3000

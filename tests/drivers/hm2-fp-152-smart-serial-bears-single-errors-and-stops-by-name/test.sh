@@ -1,7 +1,7 @@
 #!/bin/bash
-# Cards at a smart-serial port say themselves what they have. Single errors are counted and borne; too many stop the port,
-# with the card's name and the reason; then (FP-142) inputs become false, and run off and on starts it again. A
-# parameter that the card keeps is written between stop and start. What a channel's x leaves out is GPIO.
+# Cards at a smart-serial port say themselves what they have. Single errors are counted and borne; too many stop the
+# port, with the card's name and the reason; then (FP-142) inputs become false, and run off and on starts it again.
+# A parameter that the card keeps is written between stop and start. What a channel's x leaves out is GPIO.
 ../../lib/with-hm2-board -f serial <<'END'
 wait 0.01
 get %.sserial.port-0.port_state

@@ -1,6 +1,6 @@
 #!/bin/bash
-# FP-157: random firmware, pins and registers, transfers that fail now and then, and pins with nan, inf and extremes never
-# end the realtime process; a board either works or is refused.
+# FP-157: random firmware, pins and registers, transfers that fail now and then, and pins with nan, inf and extremes
+# never end the realtime process; a board either works or is refused.
 top=$(cd ../../.. && pwd)
 rtlib=$(dirname "$(dirname "$(command -v rtapi_app)")")/rtlib
 trap 'rm -f kerf_wild_board.c t.hal "$rtlib/kerf_wild_board.so"' EXIT
@@ -11,7 +11,8 @@ for first in ${FIRST:-1 21 41 61 81}; do
     printf 'loadrt hostmot2\nloadrt kerf_wild_board first=%d seeds=20\nloadusr -w sh wild.sh\n' "$first" > t.hal
     cat > wild.sh <<'END'
 halcmd loadrt threads name1=t period1=1000000
-halcmd show funct b 2>/dev/null | awk '$6 ~ /^b[0-9]+[.](read|write|read_gpio|write_gpio)$/ { print "addf", $6, "t" }' | sort > c.hal
+halcmd show funct b 2>/dev/null | awk '$6 ~ /^b[0-9]+[.](read|write|read_gpio|write_gpio)$/ { print "addf", $6, "t" }' |
+    sort > c.hal
 echo start >> c.hal
 for value in nan inf -inf 1e300 -1e300 0 1; do
     { halcmd show pin b; halcmd show param b; } 2>/dev/null |

@@ -1,5 +1,5 @@
-/* Boards whose descriptors, pins and registers are random, many of them: registering one either works or is refused, and
- * the functions of a cycle run with whatever the registers and pins say. Odd seeds keep the layouts that the driver
+/* Boards whose descriptors, pins and registers are random, many of them: registering one either works or is refused,
+ * and the functions of a cycle run with whatever the registers and pins say. Odd seeds keep the layouts that the driver
  * knows, so that their modules come to work. */
 #include <string.h>
 #include <rtapi_app.h>
@@ -79,7 +79,8 @@ static void make(int seed)
     }
     for(i = 0; i < 72; i++) {
         const rtapi_u32 *k = known[draw(sizeof known / sizeof known[0])];
-        put(0x800 + 4 * i, 3u << 24 | (draw(8) ? draw(4) : draw(256)) << 16 | k[0] << 8 | draw(2) << 7 | (1 + draw(12)));
+        rtapi_u32 unit = draw(8) ? draw(4) : draw(256);
+        put(0x800 + 4 * i, 3u << 24 | unit << 16 | k[0] << 8 | draw(2) << 7 | (1 + draw(12)));
     }
 }
 
@@ -96,7 +97,8 @@ static int try_board(int seed)
     b->threadsafe = true;
     for(i = 0; i < 3; i++) b->connector_name[i] = "P";
     snprintf(b->name, sizeof b->name, "b%d", seed);
-    return hm2_register(b, seed % 3 ? "ssi_chan_0=a%20e biss_chan_1=b%30sc%40u sserial_port_0=xxxxxxxx fanuc_chan_0=AA64"
+    return hm2_register(b, seed % 3 ? "ssi_chan_0=a%20e biss_chan_1=b%30sc%40u sserial_port_0=xxxxxxxx "
+                                      "fanuc_chan_0=AA64"
                                     : "sserial_port_0=xxxxxxxx enable_raw num_encoders=1");
 }
 

@@ -1,7 +1,7 @@
 #!/bin/bash
-# FP-146: hm2_modbus with a simulated device: values go and come in every kind of frame; each failure is counted, a device
-# that does not answer is switched off after five and does not hold up the others, reset tries again, writes that were not
-# answered are sent again. mesambccc makes the file, and names mistakes with their line.
+# FP-146: hm2_modbus with a simulated device: values go and come in every kind of frame; each failure is counted, a
+# device that does not answer is switched off after five and does not hold up the others, reset tries again, writes
+# that were not answered are sent again. mesambccc makes the file, and names mistakes with their line.
 trap 'rm -f device.mbccb wrong.mbccs' EXIT
 mesambccc -v -o device.mbccb device.mbccs
 od -A d -t x1 device.mbccb | head -10

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Three-phase PWM, RC servos, relays, outputs, inputs, one-shots, period meters, galvanometers, resolvers and the DPLL:
-# what the pins ask for is in the registers, and the other way round. The board's registers are memory here.
+# Three-phase PWM, RC servos, relays, outputs, inputs, one-shots, period meters, galvanometers, resolvers and the
+# DPLL: what the pins ask for is in the registers, and the other way round. The board's registers are memory here.
 ../../lib/with-hm2-board -b 7I80HD-16 -f full <<'END'
 say three-phase PWM: middle, then ends; setup with sample time and dead time
 peek 0x5000

@@ -42,7 +42,8 @@ static void use_bspi(void)
                 hm2_bspi_setup_chan("x", 0, 0, 8, 1, 0, 0, 0, 0, 0, 0));
     rtapi_print("frame %d %d\n", hm2_tram_add_bspi_frame(name, 3, &wbuff, NULL),
                 hm2_tram_add_bspi_frame(name, 3, &wbuff, &rbuff));
-    rtapi_print("functions %d %d %d\n", hm2_allocate_bspi_tram(name), hm2_bspi_set_read_function(name, count_read, NULL),
+    rtapi_print("functions %d %d %d\n", hm2_allocate_bspi_tram(name),
+                hm2_bspi_set_read_function(name, count_read, NULL),
                 hm2_bspi_set_write_function(name, count_write, NULL));
     rtapi_print("write %d clear %d\n", hm2_bspi_write_chan(name, 5, 0x12345678), hm2_bspi_clear_fifo(name));
 }

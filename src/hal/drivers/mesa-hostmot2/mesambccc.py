@@ -137,8 +137,8 @@ class Pin:
 class Compiler:
     ROOT = {"baudrate", "drivedelay", "duplex", "icdelay", "interval", "parity", "rxdelay", "stopbits", "suspend",
             "timeout", "txdelay", "writeflush"}
-    COMMAND = set("address bcanswer clamp count delay device disabled function haltype interval modbustype name noanswer "
-                  "resend scale timeout timeoutbits timesout unaligned writeflush".split())
+    COMMAND = set("address bcanswer clamp count delay device disabled function haltype interval modbustype name "
+                  "noanswer resend scale timeout timeoutbits timesout unaligned writeflush".split())
     INIT = set("address bcanswer count delay device function noanswer timeout timeoutbits timesout baudrate parity "
                "stopbits rxdelay txdelay drivedelay icdelay".split())
 
@@ -271,8 +271,8 @@ class Compiler:
         interval = ONCE if interval == "once" else \
             number(e if e.get("interval") else self.root, "interval", 0, 3600000000, 0)
         at = number(e, "address", 0, 65535)
-        self.commands.append(RECORD.pack(address, function, self.flags(e), at, len(pins), count, 0, 0, typeptr, interval,
-                                         self.timeout(e, function, count), names[0]))
+        self.commands.append(RECORD.pack(address, function, self.flags(e), at, len(pins), count, 0, 0, typeptr,
+                                         interval, self.timeout(e, function, count), names[0]))
 
     def pins(self, e, function, device):
         """Of a command, and how many bits or registers it has."""
