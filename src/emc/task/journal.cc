@@ -101,6 +101,12 @@ std::string JournalRecord::get(const std::string &word) const {
     return text_.substr(from, text_.find('\n', from) - from);
 }
 
+bool JournalRecord::whole() const {
+    const std::string number = get("line");
+    return get("program") != "?" && text_.back() == '\n' && !number.empty() && number.size() < 10 &&
+           number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 int JournalRecord::line() const { return atoi(get("line").c_str()); }
 
 // Codes without those of a line itself: how it moves (the first one), and G92, which has an item of its own.
@@ -138,14 +144,23 @@ Journal::~Journal() {
     if (writer_.joinable()) writer_.join();
 }
 
-std::string Journal::open(const std::string &file, const Files &files) {
+static JournalRecord read_record(const std::string &file) {
+    std::ifstream in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return JournalRecord(text.str());
+}
+
+JournalRecord Journal::open(const std::string &file, const Files &files, std::string *trouble) {
     file_ = file;
     files_ = files;
-    if (file_.empty()) return "";
-    std::ifstream in(file_);
-    std::stringstream left;
-    left << in.rdbuf();
-    return left.str();
+    if (file_.empty() || access(file_.c_str(), F_OK) != 0) return {};
+    const JournalRecord left = read_record(file_);
+    if (left.whole()) return left;
+    const JournalRecord before = read_record(file_ + ".bak");
+    *trouble = "The journal of a run that was cut off is damaged: " + file_ +
+               (before.whole() ? ". The one before is used: " + file_ + ".bak" : "");
+    return before.whole() ? before : JournalRecord();
 }
 
 void Journal::update(const EMC_STAT &stat, const JournalPlace &place, bool running) {

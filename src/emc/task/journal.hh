@@ -22,6 +22,7 @@ public:
     JournalRecord() = default;
     explicit JournalRecord(std::string text) : text_(std::move(text)) {}
     bool empty() const { return text_.empty(); }
+    bool whole() const; // names a program and a line of it
     std::string get(const std::string &word) const; // "?" when it is not there
     int line() const;                               // of the main program; 0 unknown
     const std::string &text() const { return text_; }
@@ -51,8 +52,9 @@ public:
     struct Files {
         std::string table, ini;
     };
-    // file: "" for none. Returns what the last run left, "" when it ended in order.
-    std::string open(const std::string &file, const Files &files);
+    // file: "" for none. Returns what the last run left, empty when it ended in order. trouble: the
+    // file is damaged; then the one before it is returned, if there is one.
+    JournalRecord open(const std::string &file, const Files &files, std::string *trouble);
     // running: a program is being executed. Afterwards the file goes, however it was ended.
     void update(const EMC_STAT &stat, const JournalPlace &place, bool running);
 

@@ -217,7 +217,9 @@ void Task::open_journal() {
     std::string file = ini_.findStringV(
         "JOURNAL", "TASK", canon_settings_.parameter_file.empty() ? "" : canon_settings_.parameter_file + ".journal");
     if (strcasecmp(file.c_str(), "none") == 0) file.clear();
-    cut_ = JournalRecord(journal_.open(file, {io_.table(), ini_file_}));
+    std::string trouble;
+    cut_ = journal_.open(file, {io_.table(), ini_file_}, &trouble);
+    if (!trouble.empty()) operator_error(trouble.c_str());
     if (cut_.empty()) return;
     const std::string program = cut_.get("program");
     stat_.cut_off_line = cut_.line();
