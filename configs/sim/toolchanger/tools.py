@@ -5,9 +5,10 @@
 [EMCIO]DB_PROGRAM starts this program; tooldb talks to the controller.
 """
 import json
-import os
+import sys
 import time
 
+from kerf import files
 from tooldb import tooldb_callbacks, tooldb_loop, tooldb_tools
 
 FILE = "tools.json"
@@ -18,18 +19,20 @@ START = {"1": {"line": "T1 P1 Z45.0 D10.0 ;10 mm end mill", "seconds": 0},
 
 def read():
     """All tools; the first time those of START."""
-    try:
-        with open(FILE) as f:
-            return json.load(f)
-    except FileNotFoundError:
-        return START
+    for name in (FILE, FILE + ".bak"):
+        try:
+            with open(name) as f:
+                return json.load(f)
+        except FileNotFoundError:
+            pass
+        except ValueError as error:
+            print(f"tools.py: {name} is damaged: {error}", file=sys.stderr)
+    return START
 
 
 def write():
-    """Replaces the file whole, so that a crash leaves the old one."""
-    with open(FILE + ".new", "w") as f:
-        json.dump(tools, f, indent=1)
-    os.replace(FILE + ".new", FILE)
+    """Replaces the file whole, so that a crash leaves the old one, which stays as tools.json.bak."""
+    files.replace(FILE, json.dumps(tools, indent=1))
 
 
 def get(number):

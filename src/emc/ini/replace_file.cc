@@ -29,6 +29,18 @@ bool write_all(int fd, const std::string &text)
     return true;
 }
 
+// A terminal, a pipe: nothing is kept there.
+bool write_there(const std::string &place, const std::string &text)
+{
+    const int fd = open(place.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd < 0) return false;
+    const bool good = write_all(fd, text);
+    const int why = errno;
+    close(fd);
+    errno = why;
+    return good;
+}
+
 } // namespace
 
 bool replace_file(const std::string &filename, const std::string &text, bool backup)
@@ -45,6 +57,7 @@ bool replace_file(const std::string &filename, const std::string &text, bool bac
         errno = EISDIR;
         return false;
     }
+    if (there && !S_ISREG(st.st_mode)) return write_there(place, text);
     if (there) mode = st.st_mode & 0777;
     const std::string fresh = place + ".new", old = place + ".bak";
     const int fd = open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);

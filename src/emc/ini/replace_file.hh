@@ -13,7 +13,7 @@ namespace linuxcnc
 
 /// Writes FILE.new, syncs it and renames it: after a power cut there is the old text or the new
 /// one, never a part. The old file stays as FILE.bak if `backup`; owner and rights stay, a
-/// symbolic link keeps pointing to its file. False: errno, the old file is untouched.
+/// symbolic link keeps pointing to its file, devices and pipes are written to. False: errno, the old file is untouched.
 bool replace_file(const std::string &filename, const std::string &text, bool backup);
 
 } // namespace linuxcnc

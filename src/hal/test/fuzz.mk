@@ -5,10 +5,10 @@
 # FUZZ_SANITIZERS=undefined: many runs in little time (a build of its own: make FUZZ_DIR=fuzz-fast ...).
 FUZZ_SANITIZERS ?= address,undefined
 FUZZ_DIR ?= fuzz
-FUZZ_PARTS := $(HALCMD_CORE) src/emc/ini/inifile.cc $(HAL_SOURCES) src/hal/hal_query.c $(RTAPI_ULAPI_SOURCES)
+FUZZ_PARTS := $(HALCMD_CORE) $(INIFILE_SOURCES) $(HAL_SOURCES) src/hal/hal_query.c $(RTAPI_ULAPI_SOURCES)
 FUZZ_halcmd := src/hal/utils/halcmd/fuzz.cc $(FUZZ_PARTS)
 FUZZ_parsers := $(addprefix src/hal/test/,fuzz_parsers.cc fuzz_stream.c) $(addprefix src/hal/utils/halrmt/,server.cc \
-    commands.cc) src/hal/stream/halstream_main.c $(filter-out src/emc/ini/%,$(FUZZ_PARTS))
+    commands.cc) src/hal/stream/halstream_main.c $(filter-out src/emc/ini/inifile.cc,$(FUZZ_PARTS))
 FUZZ_host := src/hal/test/fuzz_host.c $(filter-out %/host_main.c %/host_module.c,$(RTAPI_HOST_SOURCES))
 FUZZ_rs274 := src/emc/rs274ngc/rs274_fuzz.cc $(RS274_SOURCES) $(TOOLDATA_SOURCES) $(INIFILE_SOURCES)
 FUZZ_FLAVOUR_halcmd := ul

@@ -7,3 +7,12 @@ gcc -shared -fPIC -O1 -o "$scratch/failing_writes.so" "$EMC2_HOME/tests/lib/fail
 export HOME=$scratch/home PYTHONDONTWRITEBYTECODE=1; mkdir "$HOME"
 export LD_PRELOAD=$scratch/failing_writes.so
 /usr/bin/python3 run.py "$scratch" 2>&1
+/usr/bin/python3 writers.py
+unset LD_PRELOAD
+cd "$scratch"
+echo "# mine" > keep.hal
+for type in nonsense all; do
+    printf "loadrt and2\nsave $type keep.hal\n" > t.hal
+    halrun t.hal 2>&1 | grep -o "Unknown 'save' type.*"
+    head -1 keep.hal keep.hal.bak 2> /dev/null
+done

@@ -6,6 +6,7 @@
  */
 #include "commands.hh"
 #include "format.hh"
+#include "replace_file.hh"
 #include "snapshot.hh"
 
 #include <algorithm>
@@ -167,28 +168,20 @@ int do_save(Session &s, const Args &args)
 {
     if (s.silent()) return 0;
     const std::string type = args.empty() ? "all" : args[0];
-    FILE *file = nullptr;
-    if (args.size() > 1 && !(file = fopen(args[1].c_str(), "we"))) {
-        s.error(strf("Can't open 'save' destination '%s'", args[1].c_str()));
+    std::string text;
+    if (!save_text(type, text)) { // a file that is there stays
+        s.error(strf("Unknown 'save' type '%s'", type.c_str()));
         return -EINVAL;
     }
-    std::string text;
-    int r = 0;
-    if (!save_text(type, text)) {
-        s.error(strf("Unknown 'save' type '%s'", type.c_str()));
-        r = -EINVAL;
-    }
-    if (!file) {
+    if (args.size() < 2) {
         s.console(text);
-        return r;
+        return 0;
     }
-    bool written = fwrite(text.data(), 1, text.size(), file) == text.size();
-    written = fclose(file) == 0 && written;
-    if (!written) {
-        s.error(strf("Can't write 'save' destination '%s': %s", args[1].c_str(), strerror(errno)));
-        r = -EIO;
-    }
-    return r;
+    if (linuxcnc::replace_file(args[1], text, true)) return 0;
+    const bool full = errno == ENOSPC || errno == EIO || errno == EFBIG || errno == EDQUOT;
+    s.error(full ? strf("Can't write 'save' destination '%s': %s", args[1].c_str(), strerror(errno))
+                 : strf("Can't open 'save' destination '%s'", args[1].c_str()));
+    return full ? -EIO : -EINVAL;
 }
 
 } // namespace halcmd
