@@ -127,7 +127,7 @@ def uart_firmware():
 
 # Maker, pins of a port, the second stride of instances.
 FIRMWARE = {'plain': (plain_firmware, 17, 0x40), 'full': (full_firmware, 24, 0x40),
-            'serial': (serial_firmware, 17, 0x40), 'uart': (uart_firmware, 17, 0x10)}
+            'serial': (serial_firmware, 17, 0x40), 'old-cards': (serial_firmware, 17, 0x40), 'uart': (uart_firmware, 17, 0x10)}
 
 
 class Card:
@@ -174,6 +174,17 @@ class Card:
         out = self.outputs[0]
         value = out & 0xFFFF | (out >> 16 & 0x3FF) << 16 | count << 32 | (out >> 26 & 1) << 40
         return [value >> 32 * n & 0xFFFFFFFF for n in range(3)]
+
+
+class MuteCard(Card):
+    """A card that the driver has to know: no tables; its inputs are what goes out, and 40 A are the most it can."""
+    PTOC = GTOC = 0
+
+    def write_list(self, at, records):
+        struct.pack_into('<H', self.memory, 0x8E8, 4000)
+
+    def inputs(self, count):
+        return [self.outputs[0], self.outputs[0], self.outputs[0]]
 
 
 class SerialPort:
@@ -245,6 +256,11 @@ class SerialPort:
         operation, addr = what >> 24, what & 0xFFFF
         if operation == 0x4C:
             self.put_user(channel, [card.memory[addr]])
+        elif 0x44 <= operation <= 0x47:
+            value = int.from_bytes(card.memory[addr:addr + (1 << operation - 0x44)], 'little')
+            self.put_user(channel, [value & 0xFFFFFFFF, value >> 32])
+        elif operation == 0xDF:
+            self.put_user(channel, [0x5A])
         elif operation == 0xEC:
             card.locked = user == 0
         elif 0x64 <= operation <= 0x67:
@@ -537,6 +553,8 @@ def main():
         board.registers.put(0x8000, 9)
     if firmware == 'serial':
         board.card_port = SerialPort(board.registers, {0: Card('7I76', 0x1234), 2: Card('7I73', 0xABCD)})
+    if firmware == 'old-cards':
+        board.card_port = SerialPort(board.registers, {0: MuteCard('8I20', 0x0102001F), 1: MuteCard('7I64', 7)})
     sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     sock.bind((ip, PORT))
     print('ready', flush=True)

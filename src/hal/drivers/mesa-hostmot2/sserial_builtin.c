@@ -19,8 +19,8 @@ struct entry {
 static const struct entry of_8i20[] = {
     {"angle", FIELD_UNSIGNED, 16, FIELD_OUT, 1},
     {"current", FIELD_SIGNED, 16, FIELD_OUT, 0}, /* the card's own limit */
-    {"card-temp", FIELD_UNSIGNED, 16, FIELD_IN, 1},
-    {"bus-voltage", FIELD_UNSIGNED, 16, FIELD_IN, 1},
+    {"card-temp", FIELD_UNSIGNED, 16, FIELD_IN, 65535},
+    {"bus-voltage", FIELD_UNSIGNED, 16, FIELD_IN, 655.35},
     {"status.current-lim", FIELD_BOOLEAN, 1, FIELD_IN, 1},
     {"status.brake-on", FIELD_BOOLEAN, 1, FIELD_IN, 1},
     {"status.brake-old", FIELD_BOOLEAN, 1, FIELD_IN, 1},
