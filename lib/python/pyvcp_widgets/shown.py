@@ -135,7 +135,7 @@ class Bar(Ranged):
         self.x, self.y, self.wide, self.tall = (canvas_width - bar_width) / 2, 5, bar_width, bar_height
         self.create_rectangle(self.x, self.y, self.x + bar_width, self.y + bar_height, fill=bgcolor)
         self.create_rectangle(0, 0, 0, 0, fill=fillcolor, width=0, tags="bar")
-        below = self.y + bar_height + 8
+        below = self.y + bar_height + 7
         self.create_text(self.x, below, text=f"{min_}", tags="ink")
         self.create_text(self.x + bar_width, below, text=f"{max_}", tags="ink")
         self.create_text(self.x + bar_width / 2, self.y + bar_height / 2, tags="number")
