@@ -95,9 +95,10 @@ class Tool:
         hours = self.looks[-1][0]
         at = [min(self.looks, key=lambda l, part=part: abs(l[0] - hours * part)) for part in (0, .25, .5, .75, 1)]
         grown = at[4][1] - at[2][1]
-        day = grown / max(at[4][0] - at[2][0], 1e-9) * 24
+        leaks = 2 * min(at[3][1] - at[2][1], at[4][1] - at[3][1])       # what leaks does so in each quarter
+        day = leaks / max(at[4][0] - at[2][0], 1e-9) * 24
         filled = at[4][1] - at[0][1] > max(LEAST_KB, BUFFERS_KB.get(self.name, 0))
-        bad = (filled and grown > LEAST_KB and day > MOST_KB) or self.end.startswith("ended by")
+        bad = (filled and leaks > LEAST_KB and day > MOST_KB) or self.end.startswith("ended by")
         own = " ".join(f"{look[1]:7d}" for look in at)
         return (f"{self.name:22s} {hours:7.2f} h  own kB {own}  RSS {at[0][2]:7d} {at[4][2]:7d}  "
                 f"{grown:+6d} kB in the later half {'GROWS' if bad else 'flat'}  {self.end}"), bad
