@@ -21,6 +21,7 @@ cat home/.latency
 echo "# ended by a signal"
 rm home/.latency
 for tool in "latency-test --nox 1ms" "latency-histogram --nox" "latency-plot --nox"; do
+    : > ended       # not what the one before wrote
     $tool > ended 2>&1 & pid=$!
     until grep -q "interval\|sdev\|last" ended; do sleep 0.1; done
     kill -HUP $pid
@@ -28,8 +29,19 @@ for tool in "latency-test --nox 1ms" "latency-histogram --nox" "latency-plot --n
     realtime status > /dev/null || echo "no session is left"
 done
 cat home/.latency
+echo "# the components go"
+for tool in "latency-histogram --nox" "latency-plot --nox"; do
+    : > ended       # not what the one before wrote
+    $tool > ended 2>&1 & pid=$!
+    until grep -q "sdev\|last" ended; do sleep 0.1; done
+    halcmd stop; halcmd unloadrt all
+    wait $pid; echo "${tool%% *} => $?"
+    sed -n '/Traceback/p; s/ (.*//; /nothing is measured/p' ended
+    realtime status > /dev/null || echo "no session is left"
+done
 echo "# the panel dies"
 rm home/.latency
+: > ended       # not what the one before wrote
 latency-test --nox 1ms > ended 2>&1 & pid=$!
 until grep -q interval ended; do sleep 0.1; done
 kill -KILL $(halcmd show comp lat | awk '$3 == "lat" {print $4}')

@@ -6,7 +6,7 @@ import time
 from collections import deque
 
 from .. import clock
-from .session import Platform, halcmd, run_tool
+from .session import Platform, halcmd, measuring, run_tool
 
 POINTS = 600   # that are kept
 
@@ -76,7 +76,8 @@ def options(arguments: list[str]) -> argparse.Namespace:
 def print_lines(trace: IntervalTrace, o: argparse.Namespace):
     while not o.points or trace.count < o.points:
         clock.sleep(o.time / 1000)
-        trace.sample()
+        with measuring():
+            trace.sample()
         print(trace.line(), flush=True)
 
 

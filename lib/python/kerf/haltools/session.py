@@ -21,8 +21,17 @@ class ToolError(Exception):
 
 
 def lost(error: Exception) -> ToolError:
-    """What a window ends with whose figures cannot be read any more."""
+    """What a tool ends with whose figures cannot be read any more."""
     return ToolError(f"nothing is measured any more: the realtime session was ended or changed ({error})")
+
+
+@contextlib.contextmanager
+def measuring():
+    """Raises ToolError where pins or streams are not there any more."""
+    try:
+        yield
+    except (RuntimeError, TypeError) as error:
+        raise lost(error) from None
 
 
 def halcmd(*words: str) -> str:
@@ -90,7 +99,9 @@ def each_second(lines, seconds: int, pause_s: float = 1.0):
     while True:
         clock.sleep(pause_s)
         elapsed = round(clock.now() - start)
-        for line in lines(elapsed):
+        with measuring():
+            found = list(lines(elapsed))
+        for line in found:
             print(line, flush=True)
         if seconds and elapsed >= seconds:
             return
