@@ -51,7 +51,7 @@ def tool_lines(ini, folder):
 
 def read_tools(ini, folder):
     """Tools of a machine as the interpreter takes them: number, nine offsets, diameter, two angles, orientation."""
-    tools = []
+    tools = [(0, *[0.0] * 12, 0)]        # the spindle
     for line in tool_lines(ini, folder):
         words = {m[1].upper(): float(m[2]) for m in re.finditer(r"([A-Za-z])\s*([+-]?[\d.]+)", line.split(";")[0])}
         if "T" in words:
