@@ -53,3 +53,16 @@ get %.uart.0.rx-bytes
 get %.uart.0.rx-data-00
 get %.uart.0.rx-data-02
 END
+echo "a lost answer to a direct read is counted, no more"
+../../lib/with-hm2-board -f uart <<'END'
+stop
+setp %.packet-read-timeout 500000000
+loadrt mesa_uart names=%.uart.0
+addf %.uart.0.receive servo 2
+start
+wait 0.01
+poke 0xF000 2
+wait 0.05
+get %.io_error
+get %.packet-error-total
+END

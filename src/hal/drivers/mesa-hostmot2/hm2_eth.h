@@ -86,8 +86,8 @@ extern const struct hm2_llio_ops eth_ops;
 extern int eth_debug;
 /* [any] Real time, ns: a board does not wait for a simulated clock. */
 long long eth_now(void);
-/* [init] Reads count elements of size bytes from a memory space; waits up to 200 ms, and asks again
- * a few times. 0 or -errno. */
+/* [any] Reads count elements of size bytes from a memory space. In a cycle waits as long as for the
+ * cycle's answer, else up to 200 ms, and asks again a few times. 0 or -errno. */
 int eth_read_space(struct eth_board *b, int space, rtapi_u32 addr, void *buffer, int count, int size);
 
 /* ---- hm2_eth_net.c: [init], ordinary network set-up ------------------------- */

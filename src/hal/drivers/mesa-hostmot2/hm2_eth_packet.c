@@ -121,13 +121,22 @@ static void drain(struct eth_board *b)
         if(recv(b->fd, b->answer, sizeof b->answer, MSG_DONTWAIT) < 0 && errno == EAGAIN) return;
 }
 
+static long long answer_timeout(const struct eth_board *b)
+{
+    if(!in_realtime()) return SLOW_TIMEOUT_NS; /* the parameter may not be there yet */
+    long t = hal_get_si32(b->read_timeout), period = b->io.period;
+    if(t <= 0) t = DEFAULT_PERCENT;
+    if(t < 100) t = period / 100 * t;
+    return t < LEAST_TIMEOUT_NS ? LEAST_TIMEOUT_NS : t;
+}
+
 static int ask(struct eth_board *b, rtapi_u32 command, rtapi_u32 addr, void *buffer, int bytes)
 {
     int n;
     drain(b);
     put_command(&b->single, command, addr);
     if(!send_packet(b, &b->single)) return -EIO;
-    n = receive_packet(b, eth_now() + SLOW_TIMEOUT_NS);
+    n = receive_packet(b, eth_now() + answer_timeout(b));
     if(n < 0) return n;
     if(n != bytes) return -EBADMSG;
     memcpy(buffer, b->answer, (size_t)bytes);
@@ -137,8 +146,8 @@ static int ask(struct eth_board *b, rtapi_u32 command, rtapi_u32 addr, void *buf
 int eth_read_space(struct eth_board *b, int space, rtapi_u32 addr, void *buffer, int count, int size)
 {
     rtapi_u32 command = LBP_SPACE(space) | (size == 4 ? LBP_32BIT : LBP_16BIT) | LBP_INCREMENT | (rtapi_u32)count;
-    int tries, r = -EIO;
-    for(tries = 0; tries < TRIES; tries++) {
+    int tries, most = in_realtime() ? 1 : TRIES, r = -EIO;
+    for(tries = 0; tries < most; tries++) {
         r = ask(b, command, addr, buffer, count * size);
         if(r == 0) break;
     }
@@ -160,7 +169,8 @@ static int read_now(struct hm2_llio *io, rtapi_u32 addr, void *buffer, int bytes
     while(bytes > 0) {
         int count = bytes / 4 < LBP_MAX_COUNT ? bytes / 4 : LBP_MAX_COUNT;
         if(eth_read_space(b, SPACE_HM2, addr, buffer, count, 4) < 0) {
-            hm2_llio_fail(io);
+            if(in_realtime()) b->lost = true; /* counted like other lost packets */
+            else hm2_llio_fail(io);
             return 0;
         }
         bytes -= count * 4;
@@ -242,15 +252,6 @@ static int queue_read(struct hm2_llio *io, rtapi_u32 addr, void *buffer, int byt
     b->queued[b->num_queued++].bytes = bytes;
     b->expected += bytes;
     return 1;
-}
-
-static long long answer_timeout(const struct eth_board *b)
-{
-    long t = hal_get_si32(b->read_timeout), period = b->io.period;
-    if(!in_realtime()) return SLOW_TIMEOUT_NS;
-    if(t <= 0) t = DEFAULT_PERCENT;
-    if(t < 100) t = period / 100 * t;
-    return t < LEAST_TIMEOUT_NS ? LEAST_TIMEOUT_NS : t;
 }
 
 static int send_reads(struct hm2_llio *io)
