@@ -283,4 +283,7 @@ class WindowPart(LooksPart):
 
     def cone_size(self):
         size = self.settings.real(("DISPLAY", "CONE_BASESIZE"), default=0.5)
-        return size if 0.025 <= size <= 2.0 else 0.5
+        if 0.025 <= size <= 2.0:
+            return size
+        print(f"axis: [DISPLAY]CONE_BASESIZE = {size:g} is not from 0.025 to 2: 0.5 is taken")
+        return 0.5

@@ -21,7 +21,7 @@ ini_edit='/^OPEN_FILE/d' run "a mill as it is: the built-in program" mill
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = ""|' run "OPEN_FILE = \"\"" xyza
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = gone.ngc|' run "OPEN_FILE = gone.ngc" xyza
 ini_edit='s|^\[DISPLAY\]|&\nBACK_TOOL_LATHE = 1\nJOG_AXES = xz\nDRO_FORMAT_MM = %s %s\nGRAPHICAL_MAX_FILE_SIZE = -1|' run "a lathe with the tool behind, a format for two numbers, files of any size" lathe
-ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = star.ngc\nDEFAULT_ANGULAR_VELOCITY = 20\nMAX_ANGULAR_VELOCITY = 90\nMIN_ANGULAR_VELOCITY = 4\nPOSITION_UNITS = inch\nDRO_FORMAT_IN = %8.2f\nGRAPHICAL_MAX_FILE_SIZE = 0.0001|' run "speeds of a rotary axis, digits of inches, a file too large to draw" xyza
+ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = star.ngc\nDEFAULT_ANGULAR_VELOCITY = 20\nMAX_ANGULAR_VELOCITY = 90\nMIN_ANGULAR_VELOCITY = 4\nCONE_BASESIZE = 5\nPOSITION_UNITS = inch\nDRO_FORMAT_IN = %8.2f\nGRAPHICAL_MAX_FILE_SIZE = 0.0001|' run "speeds of a rotary axis, digits of inches, a file too large to draw" xyza
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = ""\nFOAM_Z = 2\nFOAM_W = -8|' run "planes of a foam cutter" foam
 ini_edit='s|^\[DISPLAY\]|&\nOPEN_FILE = wing.ngc|' run "planes that are not set" foam
 
