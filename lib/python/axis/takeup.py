@@ -15,7 +15,7 @@ import linuxcnc
 
 from .codeview import line_starts
 
-KEEP_S = 1.0             # of wall time between two looks at what is to be kept
+KEEP_S = 2.0             # of wall time between two looks at what is to be kept
 VARIABLES = ("metric", "coord_type", "display_type", "jog_slider_val", "ajog_slider_val", "jogincrement", "ja_rbutton", "touch_off_system",
              "rotate_mode", "show_pyvcppanel")
 

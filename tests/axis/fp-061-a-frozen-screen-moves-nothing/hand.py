@@ -15,13 +15,15 @@ sys.stdout = open("../seen", "w", buffering=1)
 s, c = linuxcnc.stat(), linuxcnc.command()
 
 
-def until(condition, what, seconds=120):
+def comes(condition, seconds):
     end = time.monotonic() + seconds
-    while not (found := condition()):
-        if time.monotonic() > end:
-            sys.exit(f"did not happen: {what}")
+    while not (found := condition()) and time.monotonic() < end:
         time.sleep(0.02)
     return found
+
+
+def until(condition, what, seconds=120):
+    return comes(condition, seconds) or sys.exit(f"did not happen: {what}")
 
 
 def x(*words):
@@ -60,8 +62,11 @@ def steady(joint):
 def frozen(what, joint, down, up, early):
     """early: the key is let go while the screen does not get on."""
     before = len(state()["said"])
-    x(*down)
-    until(lambda: steady(joint), what)
+    for _ in range(10):          # a screen that just does not get on, on a slow computer, takes no key
+        x(*down)
+        if comes(lambda: steady(joint), 10):
+            break
+        x(*up)
     open("../slow", "w").close()
     constant = len(speeds(joint, 0.8)) == 1
     os.unlink("../slow")

@@ -2,7 +2,7 @@
 # FP-061: the process of the screen is stopped (SIGSTOP) while a jog key or button is held: the axis stops, the reason is told. When it goes on,
 # with the key held or let go meanwhile, nothing starts by itself, also not what was typed meanwhile. Up to there the speed is constant.
 . "$TEST_DIR/../lib/machine.sh"
-export KERF_CLOCK=virtual:0.25  # the screen is beside it, in wall time
+export KERF_CLOCK=virtual:0.1  # the screen is beside it, in wall time
 rm -rf machine home seen slow state; cp -r "$top/configs/sim/xyza" machine; mkdir home
 cp hand.py machine/; cp axisrc home/.axisrc
 cat > machine/screen <<'SH'
