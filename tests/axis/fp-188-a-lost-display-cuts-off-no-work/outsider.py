@@ -40,25 +40,6 @@ def moves():
     return runs()
 
 
-def parent(pid):
-    with open(f"/proc/{pid}/stat") as f:
-        return int(f.read().rsplit(")", 1)[1].split()[1])
-
-
-def server():
-    """The X server that the machine's starter started."""
-    above, pid = set(), os.getpid()
-    while pid > 1:
-        above.add(pid := parent(pid))
-    for pid in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            if parent(pid) in above and os.readlink(f"/proc/{pid}/exe").endswith("Xvfb"):
-                return int(pid)
-        except OSError:
-            pass
-    sys.exit("no X server")
-
-
 until(screen, "the screen")
 until(lambda: subprocess.run(["axis-remote", "--ping"], stderr=subprocess.DEVNULL).returncode == 0, "the screen answers")
 for state in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
@@ -82,7 +63,7 @@ until(lambda: screen() not in (0, first), "a screen after the exception")
 second = screen()
 print("after an exception: a new screen, runs:", moves(), "feed", s.feedrate)
 
-os.kill(server(), signal.SIGKILL)
+os.kill(int(os.environ["SERVER"]), signal.SIGKILL)
 until(lambda: screen() == 0, "the screen is gone")
 print("without a screen runs:", moves())
 time.sleep(2)            # it tries to come back, in vain
