@@ -76,6 +76,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.loaded_file = self.shown_file = self.kept = None    # what the operator chose; what task opens; a copy of that
         self.is_filtered = self.loading = self.cancel_loading = False
         self.loads = 0               # so many programs were shown
+        self.first_waits = True      # the program of the start is not yet opened
         self.disk_state, self.changed_on_disk, self.loaded_text, self.comparison = None, False, (0, None), None
         self.limit_path = self.limit_conditions = None   # what the limits are checked against, under which conditions it was read
         self.limits_final = False    # another reading would find out no more
@@ -637,6 +638,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.fit_screen()
         self.exit_status = 0
         if living:
+            self.first_waits = False
             self.take_up()
             return
         self.command.teleop_enable(0)
@@ -648,8 +650,13 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         if demo:
             initial = self.demo()
         wanted = initial.strip('"')          # OPEN_FILE = "" is none
-        if wanted:
-            self.root.after(50, lambda: self.open_file_guts(self.beside_ini(wanted), addrecent=not demo))
+        self.root.after(50, lambda: self.open_first(wanted and self.beside_ini(wanted), not demo))
+
+    def open_first(self, path, addrecent):
+        """The program of the start; "": none."""
+        self.first_waits = False
+        if path:
+            self.open_file_guts(path, addrecent=addrecent)
 
     def demo(self):
         """A program to look at for this machine, or "" where none fits its axes."""

@@ -113,7 +113,8 @@ class OpeningPart:
     def other_program(self):
         """Path of the program that another client opened in task, or None. Task names it while nothing runs."""
         s = self.stat
-        if self.loading or self.taking_up or s.interp_state != linuxcnc.INTERP_IDLE or not s.file or len(s.file) >= LONGEST_NAME:
+        begins = self.first_waits or self.taking_up or self.loading
+        if begins or s.interp_state != linuxcnc.INTERP_IDLE or not s.file or len(s.file) >= LONGEST_NAME:
             return None
         same = bool(self.shown_file) and os.path.realpath(s.file) == os.path.realpath(self.shown_file)
         return None if same or not os.path.isfile(s.file) else s.file
