@@ -299,6 +299,8 @@ class FollowPart:
         """Looks around now and every ERROR_POLL_MS."""
         try:
             self.look_around()
+        except linuxcnc.error:
+            pass            # tick() tells that the controller is gone
         except Exception as e:
             if not self.root.children:       # the window is gone
                 return
