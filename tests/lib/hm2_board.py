@@ -127,7 +127,8 @@ def uart_firmware():
 
 # Maker, pins of a port, the second stride of instances.
 FIRMWARE = {'plain': (plain_firmware, 17, 0x40), 'full': (full_firmware, 24, 0x40),
-            'serial': (serial_firmware, 17, 0x40), 'old-cards': (serial_firmware, 17, 0x40), 'uart': (uart_firmware, 17, 0x10)}
+            'serial': (serial_firmware, 17, 0x40), 'old-cards': (serial_firmware, 17, 0x40),
+            'uart': (uart_firmware, 17, 0x10)}
 
 
 class Card:

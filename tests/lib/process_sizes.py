@@ -13,7 +13,8 @@ def own_session():
 def weigh(folder):
     """(kB of private memory, open files) of one process of /proc."""
     rollup = (folder / "smaps_rollup").read_text()
-    return sum(int(line.split()[1]) for line in rollup.splitlines() if line.startswith("Private_")), len(os.listdir(folder / "fd"))
+    return (sum(int(line.split()[1]) for line in rollup.splitlines() if line.startswith("Private_")),
+            len(os.listdir(folder / "fd")))
 
 
 def parent(pid):
@@ -28,7 +29,8 @@ def ancestors():
 
 
 def sizes(names=None):
-    """Name and process id -> (kB of private memory, open files): processes of this session, and the X server that with-display made for it."""
+    """Name and process id -> (kB of private memory, open files): processes of this session, and the X server that
+    with-display made for it."""
     session, older, found = own_session(), ancestors(), {}
     for p in Path("/proc").glob("[0-9]*"):
         try:

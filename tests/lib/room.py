@@ -24,7 +24,8 @@ CONTRAST, SEEN = 4.5, 3.0     # of letters, of lines
 CLASSIC = ("Label", "Button", "Checkbutton", "Radiobutton", "Menubutton", "Message")
 THEMED = ("TLabel", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton")
 FIELDS = ("Entry", "Spinbox", "TEntry", "TSpinbox", "TCombobox")
-PRESSED = ("Button", "Checkbutton", "Radiobutton", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton", "TCombobox", "TEntry", "Entry", "Scale", "TScale")
+PRESSED = ("Button", "Checkbutton", "Radiobutton", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton",
+           "TCombobox", "TEntry", "Entry", "Scale", "TScale")
 FEW_LINES = 6               # of a text that scrolls
 MORE = 0.4                  # of a text in a language with long words
 NUMBER_DIGITS = 14          # what is shorter than this in an entry is a number or a name that must be seen whole
@@ -34,7 +35,8 @@ def longer_text(text):
     """The text with letters of the longer languages, MORE as long; formats, accelerators, keys in brackets stay."""
     def word(match):
         found = match.group()
-        return found if "%" in found or found.startswith("[") or not re.search("[A-Za-z]{2}", found) else found + ("\u00e4\u00eau\u00dfe\u00f1mo" * 9)[:math.ceil(MORE * len(found))]
+        return (found if "%" in found or found.startswith("[") or not re.search("[A-Za-z]{2}", found)
+                else found + ("\u00e4\u00eau\u00dfe\u00f1mo" * 9)[:math.ceil(MORE * len(found))])
     return re.sub(r"\[[^\]]*\]|\S+", word, text)
 
 
@@ -45,7 +47,8 @@ def longer():
 
 def luminance(red, green, blue):
     """Of a colour, 0 to 1 each."""
-    return sum(w * (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4) for w, c in ((0.2126, red), (0.7152, green), (0.0722, blue)))
+    return sum(w * (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4)
+               for w, c in ((0.2126, red), (0.7152, green), (0.0722, blue)))
 
 
 class Look:
@@ -65,7 +68,8 @@ class Look:
         return self.tk.splitlist(str(value) if isinstance(value, (int, float)) else value)
 
     def number(self, path, *what):
-        return [int(float(str(self.call("winfo", w, path)))) for w in what] if len(what) > 1 else int(float(str(self.call("winfo", what[0], path))))
+        return ([int(float(str(self.call("winfo", w, path)))) for w in what] if len(what) > 1
+                else int(float(str(self.call("winfo", what[0], path)))))
 
     def box(self, path):
         x, y, w, h = self.number(path, "rootx", "rooty", "width", "height")
@@ -84,7 +88,8 @@ class Look:
             return 0
 
     def style(self, path, kind, name, state=""):
-        return " ".join(map(str, self.listed(self.call("ttk::style", "lookup", self.option(path, "style") or kind, "-" + name, state))))
+        return " ".join(map(str, self.listed(self.call("ttk::style", "lookup", self.option(path, "style") or kind,
+                                                       "-" + name, state))))
 
     def pixels(self, path, kind, name):
         """The first length of a themed widget's setting."""
@@ -92,7 +97,8 @@ class Look:
         return int(self.call("winfo", "pixels", path, given[0])) if given else 0
 
     def font(self, path, kind):
-        return self.option(path, "font") or (self.style(path, kind, "font") if kind.startswith("T") else "") or "TkDefaultFont"
+        return (self.option(path, "font") or (self.style(path, kind, "font") if kind.startswith("T") else "")
+                or "TkDefaultFont")
 
     def measure(self, font, text):
         return int(self.call("font", "measure", font, text))
@@ -166,8 +172,10 @@ class Look:
 
     def widget(self, path, kind, box, visible, scrolls):
         width, height = box[2] - box[0], box[3] - box[1]
-        out = [n for n, past in enumerate((box[0] < visible[0] - SLACK or box[2] > visible[2] + SLACK, box[1] < visible[1] - SLACK or box[3] > visible[3] + SLACK)) if past]
-        leaf = kind in CLASSIC + THEMED + FIELDS + ("Scale", "TScale", "Listbox", "Canvas", "Treeview", "TNotebook", "TProgressbar", "Text")
+        out = [n for n, past in enumerate((box[0] < visible[0] - SLACK or box[2] > visible[2] + SLACK,
+                                           box[1] < visible[1] - SLACK or box[3] > visible[3] + SLACK)) if past]
+        leaf = kind in CLASSIC + THEMED + FIELDS + ("Scale", "TScale", "Listbox", "Canvas", "Treeview", "TNotebook",
+                                                    "TProgressbar", "Text")
         if leaf and any(not scrolls[n] for n in out):
             self.tell(path, "hidden", f"{box} in {visible}")
         if kind in CLASSIC + THEMED:
@@ -176,7 +184,8 @@ class Look:
                 self.focus(path)
         elif kind in FIELDS:
             self.field(path, kind, width, height)
-        elif kind == "Canvas" and str(self.call("winfo", "class", path.rpartition(".")[0] or ".")) != "Togl":      # the preview's picture
+        # the preview's picture
+        elif kind == "Canvas" and str(self.call("winfo", "class", path.rpartition(".")[0] or ".")) != "Togl":
             self.canvas(path, width, height)
         elif kind == "Treeview":
             self.tree(path, width)
@@ -186,7 +195,8 @@ class Look:
             self.rows(path, width)
         elif kind == "Text":
             self.page(path, width, height)
-        if self.touch and kind in PRESSED and height < self.touch and self.option(path, "state", "normal") != "disabled":
+        if (self.touch and kind in PRESSED and height < self.touch
+                and self.option(path, "state", "normal") != "disabled"):
             self.tell(path, "small", f"{height} pixels")
 
     # -- kinds of widgets -----------------------------------------------------------------
@@ -215,10 +225,12 @@ class Look:
 
     def field(self, path, kind, width, height):
         font = self.font(path, "TkTextFont" if kind.startswith("T") else kind)
-        values = [str(v) for v in self.listed(self.call(path, "cget", "-values"))] if kind in ("TCombobox", "TSpinbox") else []
+        values = ([str(v) for v in self.listed(self.call(path, "cget", "-values"))]
+                  if kind in ("TCombobox", "TSpinbox") else [])
         text = str(self.call(path, "get"))
         state = self.option(path, "state", "normal")
-        used = 4 + (self.pixels(path, kind, "arrowsize") + 2 * self.pixels(path, kind, "padding") if kind.startswith("T") else 0)
+        used = 4 + (self.pixels(path, kind, "arrowsize") + 2 * self.pixels(path, kind, "padding")
+                    if kind.startswith("T") else 0)
         if state == "readonly" and kind == "TCombobox":
             texts = [v for v in values if len(v) < 40] + [text]
         else:
@@ -238,7 +250,8 @@ class Look:
         left, top = (float(str(self.call(path, f"canvas{axis}", 0))) for axis in "xy")
         texts = []
         for item in self.listed(self.call(path, "find", "all")):
-            if str(self.call(path, "type", item)) != "text" or str(self.call(path, "itemcget", item, "-state")) == "hidden":
+            if (str(self.call(path, "type", item)) != "text"
+                    or str(self.call(path, "itemcget", item, "-state")) == "hidden"):
                 continue
             text, box = str(self.call(path, "itemcget", item, "-text")), self.listed(self.call(path, "bbox", item))
             if not text.strip() or not box or float(str(box[3])) < PARKED:
@@ -264,11 +277,14 @@ class Look:
             total += room
             heading = str(self.call(path, "heading", column, "-text"))
             if "headings" in shown and heading and self.measure("TkHeadingFont", heading) + 4 > room:
-                self.tell(path, "cut", f"heading {heading!r} needs {self.measure('TkHeadingFont', heading) + 4} pixels, has {room}")
+                self.tell(path, "cut", f"heading {heading!r} needs {self.measure('TkHeadingFont', heading) + 4} "
+                                       f"pixels, has {room}")
             if column != "#0":
-                longest = max((str(self.call(path, "set", item, column)) for item in self.listed(self.call(path, "children", ""))), key=len, default="")
+                longest = max((str(self.call(path, "set", item, column))
+                               for item in self.listed(self.call(path, "children", ""))), key=len, default="")
                 if 0 < len(longest) <= NUMBER_DIGITS and self.measure(font, longest) + 4 > room:
-                    self.tell(path, "cut", f"{longest!r} in {heading!r} needs {self.measure(font, longest) + 4} pixels, has {room}")
+                    self.tell(path, "cut", f"{longest!r} in {heading!r} needs {self.measure(font, longest) + 4} "
+                                           f"pixels, has {room}")
         if "tree" in shown and not self.ways(path, "Treeview")[0]:
             self.branches(path, "", font)
         if total > width + 2 and not self.ways(path, "Treeview")[0]:
@@ -288,8 +304,10 @@ class Look:
     def tabs(self, path, width):
         need = 0
         for tab in self.listed(self.call(path, "tabs")):
-            pad = int(self.call("winfo", "pixels", path, (self.style("", "TNotebook.Tab", "padding").split() or ["4"])[0]))
-            need += self.measure(self.style("", "TNotebook.Tab", "font") or "TkDefaultFont", str(self.call(path, "tab", tab, "-text"))) + 2 * pad
+            pad = int(self.call("winfo", "pixels", path,
+                                (self.style("", "TNotebook.Tab", "padding").split() or ["4"])[0]))
+            need += self.measure(self.style("", "TNotebook.Tab", "font") or "TkDefaultFont",
+                                 str(self.call(path, "tab", tab, "-text"))) + 2 * pad
         if need > width:
             self.tell(path, "cut", f"tabs need {need} pixels, have {width}")
 
@@ -306,7 +324,8 @@ class Look:
         if not down and used > height + 2:
             self.tell(path, "cut", f"text of {used} pixels in {height}")
         line = int(self.call("font", "metrics", self.font(path, "Text"), "-linespace"))
-        if down and used > height and height < FEW_LINES * line and self.number(str(self.call("winfo", "toplevel", path)), "height") < self.screen[1] / 2:
+        if (down and used > height and height < FEW_LINES * line
+                and self.number(str(self.call("winfo", "toplevel", path)), "height") < self.screen[1] / 2):
             self.tell(path, "hidden", f"{height // line} lines in sight, and the screen has room for more")
         if not across and self.option(path, "wrap") == "none":
             seen = self.listed(self.call(path, "xview"))
@@ -344,7 +363,8 @@ class Look:
             off = "disabled" in state
         else:
             ink, off = self.option(path, "foreground"), self.option(path, "state", "normal") == "disabled"
-            back = self.option(path, "readonlybackground") if self.option(path, "state") == "readonly" else self.option(path, "background")
+            back = (self.option(path, "readonlybackground") if self.option(path, "state") == "readonly"
+                    else self.option(path, "background"))
         if off or not ink or not back:
             return
         ratio = contrast(self.rgb(ink), self.rgb(back))

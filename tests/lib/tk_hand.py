@@ -24,7 +24,8 @@ class Hand:
         self.settle()
 
     def _x(self, *words):
-        subprocess.run(["xdotool", *map(str, words)], check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=sys.stderr)
+        subprocess.run(["xdotool", *map(str, words)], check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                       stderr=sys.stderr)
         self.settle()
 
     def settle(self):

@@ -7,15 +7,17 @@ import traceback
 from tkinter import filedialog, messagebox, simpledialog
 
 TEXTS = ("", "0", "1", "-3.5", "1e9", "x", "nonsense", "0x10", "(", "9" * 40, "a b c", "ü", "%s", "[exit]", "$x", "{")
-KEYS = ("Up", "Down", "Left", "Right", "Return", "Escape", "Home", "Prior", "Next", "Tab", "space", "BackSpace", "a", "x", "1", "0", "F1", "F2", "F3",
-        "F4", "F5", "minus", "equal", "at", "c", "i", "dollar")
+KEYS = ("Up", "Down", "Left", "Right", "Return", "Escape", "Home", "Prior", "Next", "Tab", "space", "BackSpace", "a",
+        "x", "1", "0", "F1", "F2", "F3", "F4", "F5", "minus", "equal", "at", "c", "i", "dollar")
 
 
 class Monkey:
-    """count of actions on all windows of a root; files: names that file dialogs may give; leave: texts of buttons that are let alone."""
+    """count of actions on all windows of a root; files: names that file dialogs may give; leave: texts of buttons that
+    are let alone."""
 
     def __init__(self, root, seed, files=(), leave=(), tick=lambda: None):
-        self.root, self.random, self.files, self.leave, self.tick = root, random.Random(seed), list(files), set(leave), tick
+        self.root, self.random, self.files, self.leave, self.tick = (root, random.Random(seed), list(files),
+                                                                     set(leave), tick)
         self.trouble, self.done = [], []
         root.report_callback_exception = lambda *what: self.trouble.append("".join(traceback.format_exception(*what)))
         pick = self.random.choice
@@ -62,7 +64,9 @@ class Monkey:
                 self.point(widget)
             self.root.update()
         except tk.TclError as error:
-            if self.alive() and not any(part in str(error) for part in ("bad window path", "invalid command name", "application has been destroyed")):
+            if (self.alive() and not any(part in str(error)
+                                         for part in ("bad window path", "invalid command name",
+                                                      "application has been destroyed"))):
                 self.trouble.append(f"{self.done[-1]}: {error}")
 
     def tbutton(self, widget):
@@ -101,7 +105,8 @@ class Monkey:
         if end is None:
             return
         place = self.random.randint(0, end)
-        if widget.type(place) in ("command", "radiobutton", "checkbutton") and str(widget.entrycget(place, "label")) not in self.leave:
+        if (widget.type(place) in ("command", "radiobutton", "checkbutton")
+                and str(widget.entrycget(place, "label")) not in self.leave):
             widget.invoke(place)
         widget.unpost()
 
@@ -117,7 +122,8 @@ class Monkey:
             self.root.update()
             if box := widget.bbox(item):
                 for event in ("ButtonPress", "ButtonRelease"):
-                    widget.event_generate(f"<{event}-{self.random.choice((1, 1, 3))}>", x=box[0] + min(40, box[2] // 2), y=box[1] + 3)
+                    widget.event_generate(f"<{event}-{self.random.choice((1, 1, 3))}>",
+                                          x=box[0] + min(40, box[2] // 2), y=box[1] + 3)
 
     def listbox(self, widget):
         if widget.size():

@@ -37,9 +37,10 @@ from .waits import Waits
 from .window import WindowPart
 
 OFTEN = ("redraw_soon", "redraw", "redraw_dro")      # not worth a note
-STARTS = {"task_run", "task_run_line", "task_step", "task_resume", "task_pauseresume", "task_reverse", "task_forward", "send_mdi",
-          "mdi_history_double_butt_1", "home_all_joints", "home_joint", "home_joint_number", "spindle", "spindle_forward_toggle",
-          "spindle_backward_toggle", "spindle_increase", "mist", "flood", "mist_toggle", "flood_toggle", "brake_off", "brake",
+STARTS = {"task_run", "task_run_line", "task_step", "task_resume", "task_pauseresume", "task_reverse",
+          "task_forward", "send_mdi", "mdi_history_double_butt_1", "home_all_joints", "home_joint", "home_joint_number",
+          "spindle", "spindle_forward_toggle", "spindle_backward_toggle", "spindle_increase", "mist", "flood",
+          "mist_toggle", "flood_toggle", "brake_off", "brake",
           "set_axis_offset", "toggle_override_limits"}      # what starts something: not long after it was asked for
 STATUS_TRIES = 9
 CRASHED = 70             # exit status of a screen that an exception ended
@@ -73,12 +74,14 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.vars = Variables(root)
         self.translate = language._
         self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
-        self.loaded_file = self.shown_file = self.kept = None    # what the operator chose; what task opens; a copy of that
+        # what the operator chose; what task opens; a copy of that
+        self.loaded_file = self.shown_file = self.kept = None
         self.is_filtered = self.loading = self.cancel_loading = False
         self.loads = 0               # so many programs were shown
         self.first_waits = True      # the program of the start is not yet opened
         self.disk_state, self.changed_on_disk, self.loaded_text, self.comparison = None, False, (0, None), None
-        self.limit_path = self.limit_conditions = None   # what the limits are checked against, under which conditions it was read
+        # what the limits are checked against, under which conditions it was read
+        self.limit_path = self.limit_conditions = None
         self.limits_final = False    # another reading would find out no more
         self.joints_shown = None
         self.last_increment = None
@@ -138,7 +141,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
             if name not in OFTEN:
                 self.recorder.note(name, *args)
             if name in STARTS and self.is_late():
-                self.notifications.add("info", self.translate("Not done, the screen did not get on when it was asked for: %s") % name)
+                self.notifications.add("info",
+                                       self.translate("Not done, the screen did not get on when it was asked for: %s")
+                                       % name)
                 return ""
             try:
                 result = function(*args)
@@ -157,7 +162,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         """A fault of the screen's own code or of a user's: told, reported, and nothing ends."""
         traceback.print_exc()
         path = self.recorder.write(traceback.format_exc())
-        self.notifications.add("error", f"{type(error).__name__}: {error}" + (f"\n{self.translate('Report:')} {path}" if path else ""))
+        self.notifications.add("error",
+                               f"{type(error).__name__}: {error}"
+                               + (f"\n{self.translate('Report:')} {path}" if path else ""))
 
     def callback_failed(self, kind, error, trace):
         """What Tk calls for exceptions of bindings and timers."""
@@ -168,11 +175,14 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         print(text, file=sys.stderr)
         if not isinstance(error, tk.TclError) or self.root.children:
             path = self.recorder.write(text)
-            self.notifications.add("error", f"{kind.__name__}: {error}" + (f"\n{self.translate('Report:')} {path}" if path else ""))
+            self.notifications.add("error",
+                                   f"{kind.__name__}: {error}"
+                                   + (f"\n{self.translate('Report:')} {path}" if path else ""))
 
     def running(self):
         self.stat.poll()
-        return self.stat.task_mode in (linuxcnc.MODE_AUTO, linuxcnc.MODE_MDI) and self.stat.interp_state != linuxcnc.INTERP_IDLE
+        return (self.stat.task_mode in (linuxcnc.MODE_AUTO, linuxcnc.MODE_MDI)
+                and self.stat.interp_state != linuxcnc.INTERP_IDLE)
 
     def manual_ok(self):
         """Commands by hand are possible: the machine is on and idle, or MDI has room in its queue."""
@@ -230,7 +240,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         return False
 
     def refused_while_homing(self):
-        """True while a joint is homing: a jog, a program or an MDI line would end that half way. The operator is told."""
+        """True while a joint is homing: a jog, a program or an MDI line would end that half
+        way. The operator is told."""
         homing = self.any_homing()
         if homing:
             self.notifications.drop(lambda text: text == self.translate(HOMING))
@@ -304,7 +315,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.slider(name.split("_")[0], variable.get())
 
     def set_override(self, name, percent):
-        send = {"feedrate": self.command.feedrate, "rapidrate": self.command.rapidrate, "spindlerate": self.command.spindleoverride}
+        send = {"feedrate": self.command.feedrate, "rapidrate": self.command.rapidrate,
+                "spindlerate": self.command.spindleoverride}
         self.own_values[name] = (percent, clock.now() + 0.5)
         self.vars.put(name, percent)
         send[name](percent / 100.0)
@@ -358,7 +370,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
     # -- selection -------------------------------------------------------------------------
 
     def activate_ja_widget(self, name, force=False):
-        """Selects a letter or joint (text), or a place (number) in COORDINATES or among the joints; force: whatever goes on."""
+        """Selects a letter or joint (text), or a place (number) in COORDINATES or among the
+        joints; force: whatever goes on."""
         if not isinstance(name, str):
             if not force and not self.manual_ok():
                 return
@@ -468,7 +481,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
                 else _("Touch Off (system ACTUAL)")
             dialog = dialogs.Touchoff(self.root, title, _("Enter %s coordinate relative to workpiece:") % letter, 0.0,
                                       unit_text(letter, s, self.stat, metric), check,
-                                      None if tool else self.vars.touch_off_system.get(), self.touch_off_note(letter, tool), _)
+                                      None if tool else self.vars.touch_off_system.get(),
+                                      self.touch_off_note(letter, tool), _)
             answer = dialog.wait(dialog.entry)
             if answer is None:
                 return
@@ -494,7 +508,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
             place, find = SYSTEMS[system], lambda: self.system_offset(system, at)
             old = find()
             undo = [f"G10 L2 P{system} {letter}{self.in_program_units(letter, old)}"]
-            done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get().split()[0]} {letter.lower()}[[{value}]*{scale}]")
+            done = self.mdi_lines(f"G10 L20 {self.vars.touch_off_system.get().split()[0]} "
+                                  f"{letter.lower()}[[{value}]*{scale}]")
         self.after_mdi(before)
         if done:
             self.reload_file(False)
@@ -538,7 +553,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.undo_lines = undo
         angular = self.settings.axis_type(letter) == "ANGULAR"
         text = ["%.4f" % (v if angular else self.to_display(v)) for v in (old, new)]
-        self.notifications.add("info", self.translate("Touch off: %s, %s offset: before %s, now %s. Machine > Undo touch off takes it back.") % (place, letter, *text))
+        self.notifications.add("info",
+                               self.translate("Touch off: %s, %s offset: before %s, now %s. Machine > Undo touch "
+                                              "off takes it back.") % (place, letter, *text))
         self.root.tk.call("update_state")
 
     def undo_touch_off(self):
@@ -554,7 +571,8 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
                 self.undo_lines = lines
 
     def custom_grid(self):
-        dialog = dialogs.Touchoff(self.root, self.translate("Custom Grid"), self.translate("Enter grid size"), "", "", self.grid_value)
+        dialog = dialogs.Touchoff(self.root, self.translate("Custom Grid"), self.translate("Enter grid size"), "", "",
+                                  self.grid_value)
         answer = dialog.wait(dialog.entry)
         if answer is not None:
             self.TclCommands.set_grid_size(self.grid_value(answer[0])[0])
@@ -629,7 +647,9 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         for path in self.ini.findall("DISPLAY", "TKAPP") or []:
             self.root.tk.call("source", path)
         if self.prefs.damaged:
-            self.notifications.add("error", self.translate("The preferences were damaged: they begin anew. The old file is %s") % self.prefs.damaged)
+            self.notifications.add("error",
+                                   self.translate("The preferences were damaged: they begin anew. The old file is %s")
+                                   % self.prefs.damaged)
         self.hide_unconnected()
         self.run_user_file()
         self.fill_windows()
@@ -729,7 +749,8 @@ def main(argv):
     try:
         app.start(os.path.abspath(rest[0]) if rest else None)
         root.mainloop()
-    except (KeyboardInterrupt, SystemExit):  # the launcher ends the session; a question was open when the screen was closed
+    # the launcher ends the session; a question was open when the screen was closed
+    except (KeyboardInterrupt, SystemExit):
         pass
     except BaseException:        # a crash like one of the process: the launcher starts the screen again
         text = traceback.format_exc()

@@ -13,8 +13,8 @@ from .mdi import MdiHistory
 from .settings import MM_PER_INCH
 
 ABORT_PULSE_MS = 300
-TOGGLES = ("show_program", "show_rapids", "program_alpha", "show_live_plot", "show_tool", "show_extents", "show_offsets",
-           "show_machine_limits", "show_machine_speed", "show_distance_to_go", "dro_large_font")
+TOGGLES = ("show_program", "show_rapids", "program_alpha", "show_live_plot", "show_tool", "show_extents",
+           "show_offsets", "show_machine_limits", "show_machine_speed", "show_distance_to_go", "dro_large_font")
 
 
 def make(app):
@@ -85,7 +85,8 @@ def make(app):
             if app.running():
                 return
             types = [(name, patterns) for name, patterns in app.loader.file_types(_)]
-            chosen = filedialog.askopenfilename(parent=root, filetypes=types, initialdir=app.open_directory, title=_("Open..."))
+            chosen = filedialog.askopenfilename(parent=root, filetypes=types, initialdir=app.open_directory,
+                                                title=_("Open..."))
             if chosen:
                 app.open_directory = os.path.dirname(chosen)
                 commands.open_file_name(chosen)
@@ -123,8 +124,8 @@ def make(app):
                 return
             if not os.access(path, os.W_OK):
                 answer = dialogs.ask(root, _("File not Writable:") + os.path.basename(path),
-                                     _("The file cannot be changed: open it to read, or save a copy first?"), "warning", 0,
-                                     _("Edit-readonly"), _("Save"), _("Cancel"))
+                                     _("The file cannot be changed: open it to read, or save a copy first?"),
+                                     "warning", 0, _("Edit-readonly"), _("Save"), _("Cancel"))
                 if answer == 2:
                     return
                 if answer == 1:
@@ -248,7 +249,8 @@ def make(app):
         def send_mdi(*event):
             text = v.mdi_command.get().strip()
             s.poll()
-            if not text or s.task_state != linuxcnc.STATE_ON or s.queued_mdi_commands >= v.max_queued_mdi_commands.get():
+            if (not text or s.task_state != linuxcnc.STATE_ON
+                    or s.queued_mdi_commands >= v.max_queued_mdi_commands.get()):
                 return
             if app.refused_while_homing():
                 return
@@ -313,7 +315,8 @@ def make(app):
             if not app.manual_ok() or app.running():         # an MDI line goes on
                 return
             s.poll()
-            if (app.all_homed() and s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP) or s.motion_mode == linuxcnc.TRAJ_MODE_COORD:
+            if ((app.all_homed() and s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP)
+                    or s.motion_mode == linuxcnc.TRAJ_MODE_COORD):
                 app.ensure_mode(linuxcnc.MODE_MANUAL)
                 app.set_motion_teleop(1)
             else:
@@ -368,7 +371,8 @@ def make(app):
                 print("axis: this axis has no joint of its own: use the Homing menu")
                 return
             s.poll()
-            if s.homed[joint] and not app.confirm_rehome(_("This joint is already homed, are you sure you want to re-home?")):
+            if s.homed[joint] and not app.confirm_rehome(_("This joint is already homed, are you sure "
+                                                           "you want to re-home?")):
                 return
             commands.home_joint_number(joint)
 

@@ -16,16 +16,20 @@ from .program import beyond
 COLOURS = {     # names of the X resources *Togl.<name>
     "back": "#000000", "straight_feed": "#ffffff", "arc_feed": "#ffffff", "traverse": "#4c8080", "selected": "#00ffff",
     "grid": "#262626", "limits": "#ff0000", "label_ok": "#ff8287", "label_limit": "#ff353a", "small_origin": "#00ffff",
-    "axis_x": "#33ff33", "axis_y": "#ff3333", "axis_z": "#3333ff", "cone": "#ffffff", "cone_xy": "#00ff00", "cone_uv": "#0000ff",
-    "overlay_foreground": "#ffffff", "overlay_background": "#000000", "box": "#91adb5", "dwell": "#ff8080", "m1xx": "#8080ff",
+    "axis_x": "#33ff33", "axis_y": "#ff3333", "axis_z": "#3333ff", "cone": "#ffffff", "cone_xy": "#00ff00",
+    "cone_uv": "#0000ff",
+    "overlay_foreground": "#ffffff", "overlay_background": "#000000", "box": "#91adb5", "dwell": "#ff8080",
+    "m1xx": "#8080ff",
     "lathetool": "#cccccc", "tool_diffuse": "#999999", "straight_feed_xy": "#40ff40", "arc_feed_xy": "#40ff40",
     "straight_feed_uv": "#4040ff", "arc_feed_uv": "#4040ff", "traverse_xy": "#4c8080", "traverse_uv": "#4c8080",
-    "backplotjog": "#ffff00", "backplottraverse": "#4c8080", "backplotfeed": "#c04040", "backplotarc": "#c04080", "backplottoolchange": "#ffa500",
+    "backplotjog": "#ffff00", "backplottraverse": "#4c8080", "backplotfeed": "#c04040", "backplotarc": "#c04080",
+    "backplottoolchange": "#ffa500",
     "backplotprobing": "#a020f0"}
-ALPHA = {"overlay_alpha": 0.75, "traverse_alpha": 1 / 3, "straight_feed_alpha": 1 / 3, "arc_feed_alpha": 0.5, "tool_alpha": 0.2, "lathetool_alpha": 0.1} | {
+ALPHA = {"overlay_alpha": 0.75, "traverse_alpha": 1 / 3, "straight_feed_alpha": 1 / 3, "arc_feed_alpha": 0.5,
+         "tool_alpha": 0.2, "lathetool_alpha": 0.1} | {
     f"{name}_alpha_{plane}": 1 / 3 for name in ("traverse", "straight_feed", "arc_feed") for plane in ("xy", "uv")} | {
-    "backplotjog_alpha": 0.75, "backplottraverse_alpha": 0.25, "backplotfeed_alpha": 0.75, "backplotarc_alpha": 0.75, "backplottoolchange_alpha": 0.25,
-    "backplotprobing_alpha": 0.75}
+    "backplotjog_alpha": 0.75, "backplottraverse_alpha": 0.25, "backplotfeed_alpha": 0.75, "backplotarc_alpha": 0.75,
+    "backplottoolchange_alpha": 0.25, "backplotprobing_alpha": 0.75}
 PLOT = "jog", "traverse", "feed", "arc", "toolchange", "probing"        # motion types, in the logger's order
 CONE_RADIUS, CONE_HEIGHT = 0.1, 0.25
 NO_LIMIT = 1e30
@@ -37,7 +41,8 @@ def rgb(text, alpha=1.0):
 
 def plot_colours(colours, alpha):
     """Of linuxcnc.positionlogger: four numbers 0..255 for each motion type."""
-    return [tuple(round(255 * v) for v in rgb(colours["backplot" + name], alpha[f"backplot{name}_alpha"])) for name in PLOT]
+    return [tuple(round(255 * v) for v in rgb(colours["backplot" + name], alpha[f"backplot{name}_alpha"]))
+            for name in PLOT]
 
 
 class Composer:
@@ -63,7 +68,8 @@ class Composer:
     # -- contents --------------------------------------------------------------------------
 
     def set_program(self, program, drawings, boxed=False):
-        """program: reading.Program; drawings: kerf_raster.Drawing of each place; boxed: only its bounding box is drawn."""
+        """program: reading.Program; drawings: kerf_raster.Drawing of each place; boxed: only
+        its bounding box is drawn."""
         self.program, self.boxed, self.drawings = program, boxed, drawings
         self.unturned = None, None
         if program is not None:
@@ -84,16 +90,17 @@ class Composer:
             self.logger.set_depth(self.foam_z / self.unit, self.foam_w / self.unit)
 
     def shown_box(self):
-        """What a fitting view shows: the program as it is drawn (rotary axes may turn it anywhere), or the machine's limits when
-        there is none."""
+        """What a fitting view shows: the program as it is drawn (rotary axes may turn it anywhere), or the machine's
+        limits when there is none."""
         drawn = [d.extents for d in self.drawings if d.extents]
         if drawn:
-            return tuple(map(min, *(e[0] for e in drawn), drawn[0][0])), tuple(map(max, *(e[1] for e in drawn), drawn[0][1]))
+            return (tuple(map(min, *(e[0] for e in drawn), drawn[0][0])),
+                    tuple(map(max, *(e[1] for e in drawn), drawn[0][1])))
         return self.extents() or self.limits() or ((0, 0, 0), (1, 1, 1))
 
     def extents(self, turn=0.0, about=(0.0, 0.0)):
-        """Least and greatest of the program (without tool lengths), or None. turn: along axes X and Y that are turned by that
-        many degrees, told as if the program were turned back about a point."""
+        """Least and greatest of the program (without tool lengths), or None. turn: along axes X and Y that are turned
+        by that many degrees, told as if the program were turned back about a point."""
         p = self.program
         if p is None or p.n_moves == 0:
             return None
@@ -152,11 +159,14 @@ class Composer:
         shown = bool(o.show_program) and not self.boxed
         c.drawings, c.palettes = (self.drawings, self.palettes()) if shown else ([], [])
         if o.grid_size > 0:
-            plane = {"x": (1, 2), "y": (0, 2), "y2": (0, 2), "lathe": (0, 2), "lathe2": (0, 2)}.get(self.camera.view, (0, 1))
+            plane = {"x": (1, 2), "y": (0, 2), "y2": (0, 2), "lathe": (0, 2),
+                     "lathe2": (0, 2)}.get(self.camera.view, (0, 1))
             rotation = self.stat.rotation_xy if self.stat else 0.0
-            c.before.append(self.item(shapes.grid(o.grid_size, self.camera.centre, 2 * self.camera.size, plane, rotation), "grid"))
+            c.before.append(self.item(shapes.grid(o.grid_size, self.camera.centre, 2 * self.camera.size, plane,
+                                                  rotation), "grid"))
         if shown and o.highlight_line > 0:
-            c.selected_spans = [(n, first, last) for n, d in enumerate(self.drawings) for first, last in d.spans(o.highlight_line)]
+            c.selected_spans = [(n, first, last) for n, d in enumerate(self.drawings)
+                                for first, last in d.spans(o.highlight_line)]
         if self.program is not None and shown:
             for places, name in zip(self.program.mark_places, ("dwell", "m1xx")):
                 if places:
@@ -176,11 +186,13 @@ class Composer:
         """The place of a label: the nearest one where no other is, within the picture."""
         letter, line = 0.61 * self.text_px, self.text_px
         half = letter * (len(text) + 1) / 2
-        for dx, dy in sorted(((dx * half, dy * line / 2) for dx in range(-4, 5) for dy in range(-8, 9)), key=lambda p: (p[0] ** 2 + p[1] ** 2, -p[1])):
+        for dx, dy in sorted(((dx * half, dy * line / 2) for dx in range(-4, 5) for dy in range(-8, 9)),
+                             key=lambda p: (p[0] ** 2 + p[1] ** 2, -p[1])):
             x, y = at[0] + dx, at[1] + dy
             if (dx or dy) and not half <= x <= width - half:
                 continue
-            if not any(abs(x - ox) < letter * (len(text) + len(other)) / 2 and abs(y - oy) < line for ox, oy, other, *_ in self.scene.labels):
+            if not any(abs(x - ox) < letter * (len(text) + len(other)) / 2 and abs(y - oy) < line
+                       for ox, oy, other, *_ in self.scene.labels):
                 return x, y
         return at
 
@@ -213,9 +225,11 @@ class Composer:
             points, kinds, texts = shapes.dimension(low, high, axis, beside, o.metric, zero[axis])
             over = beyond(self.program, self.s, self.stat, axis) if self.stat is not None else (False, False)
             flags = (*over, any(over))
-            self.scene.after.append(self.item((shapes.turned(points, turn, about), kinds), "label_limit" if any(over) else "label_ok"))
+            self.scene.after.append(self.item((shapes.turned(points, turn, about), kinds),
+                                              "label_limit" if any(over) else "label_ok"))
             for (place, text), bad in zip(texts, flags):
-                labels.append((tuple(shapes.turned([place], turn, about)[0]), text, "label_limit" if bad else "label_ok", bad))
+                labels.append((tuple(shapes.turned([place], turn, about)[0]), text,
+                               "label_limit" if bad else "label_ok", bad))
         return labels
 
     def add_origin(self):
@@ -261,7 +275,8 @@ class Composer:
             extents = self.extents()
             size *= max(2.0, *([b - a for a, b in zip(*extents)] if extents else [2.0]))
         if self.s.foam:
-            for at, name, up in (((nine[0], nine[1], self.foam_z), "cone_xy", -1), ((nine[6], nine[7], self.foam_w), "cone_uv", 1)):
+            for at, name, up in (((nine[0], nine[1], self.foam_z), "cone_xy", -1),
+                                 ((nine[6], nine[7], self.foam_w), "cone_uv", 1)):
                 c.live.append(self.item(shapes.cone(at, CONE_RADIUS * size, CONE_HEIGHT * size, up), name))
             return
         at, turns = shapes.placed(nine, self.s.geometry, self.s.coordinates, self.offset_nine())
@@ -270,10 +285,12 @@ class Composer:
         if tool is not None and self.s.lathe:
             if 1 <= tool.orientation <= 9:
                 c.live.append(self.item(shapes.lathe_cross(at, diameter / 2), "lathetool"))
-                c.live.append(self.item(shapes.lathe_tool(at, diameter, tool.frontangle, tool.backangle, tool.orientation), "lathetool", 2))
+                c.live.append(self.item(shapes.lathe_tool(at, diameter, tool.frontangle, tool.backangle,
+                                                          tool.orientation), "lathetool", 2))
             return
         if tool is not None and tool.diameter > self.options.min_tool_diameter:
-            solid, arrays = shapes.cylinder_faces(at, diameter / 2, 4 * diameter), shapes.cylinder(at, diameter / 2, 4 * diameter)
+            solid, arrays = (shapes.cylinder_faces(at, diameter / 2, 4 * diameter),
+                             shapes.cylinder(at, diameter / 2, 4 * diameter))
             name = "tool_diffuse"
         else:
             way = (0, 0, 1) if not self.s.lathe else (-1, 0, 0) if abs(stat.rotation_xy - 180) < 1e-6 else (1, 0, 0)
@@ -281,7 +298,8 @@ class Composer:
             solid, arrays = shapes.cone_faces(at, radius, height, way), shapes.cone(at, radius, height, 1, way)
             name = "cone"
         for letter, degrees in turns:
-            solid, arrays = shapes.tilted(solid, at, letter, degrees), (shapes.tilted(arrays[0], at, letter, degrees), arrays[1])
+            solid, arrays = (shapes.tilted(solid, at, letter, degrees),
+                             (shapes.tilted(arrays[0], at, letter, degrees), arrays[1]))
         if len(solid):
             c.live.append(Item(solid, [1] * len(solid), self.colour(name, self.alpha["tool_alpha"]), 1, True))
         c.live.append(self.item(arrays, name, 1, 0.8))
@@ -291,7 +309,8 @@ class Composer:
         return self.stat.tool_table[0] if self.stat.tool_in_spindle > 0 else None
 
     def offset_nine(self):
-        return [(a + b) * (1.0 if 3 <= i <= 5 else self.unit) for i, (a, b) in enumerate(zip(self.stat.g5x_offset, self.stat.g92_offset))]
+        return [(a + b) * (1.0 if 3 <= i <= 5 else self.unit)
+                for i, (a, b) in enumerate(zip(self.stat.g5x_offset, self.stat.g92_offset))]
 
     def add_readout(self, h):
         c = self.scene
@@ -301,13 +320,15 @@ class Composer:
             return
         size = round(self.text_px * (1.7 if self.options.dro_large_font else 1.0)) + 2
         step = round(1.25 * size)
-        while step * (len(lines) + 1) > 0.62 * h and size > 10:      # a low window: smaller letters, the program stays visible
+        # a low window: smaller letters, the program stays visible
+        while step * (len(lines) + 1) > 0.62 * h and size > 10:
             size -= 1
             step = round(1.25 * size)
         width = 0.61 * size * max(map(len, lines))
         left = 1.5 * size
         ink = self.colour("overlay_foreground")
-        c.panels.append((0, 0, left + width + size / 2, step * len(lines) + size / 2, self.colour("overlay_background", self.alpha["overlay_alpha"])))
+        c.panels.append((0, 0, left + width + size / 2, step * len(lines) + size / 2,
+                         self.colour("overlay_background", self.alpha["overlay_alpha"])))
         c.texts.append((left, size / 4, "\n".join(lines), ink, size))
         for row, (homed, limit) in enumerate(self.marks):
             if homed:

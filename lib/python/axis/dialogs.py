@@ -9,7 +9,8 @@ from kerf.language import N_
 from kerf.numbertext import with_point
 
 CURRENT = N_("Current")
-SYSTEMS = ("P0  Current", "P1  G54", "P2  G55", "P3  G56", "P4  G57", "P5  G58", "P6  G59", "P7  G59.1", "P8  G59.2", "P9  G59.3")
+SYSTEMS = ("P0  Current", "P1  G54", "P2  G55", "P3  G56", "P4  G57", "P5  G58", "P6  G59", "P7  G59.1",
+           "P8  G59.2", "P9  G59.3")
 FOCUS_PX = 2             # around the button that the keyboard presses
 MOST_LINES = 20          # of a question; more are scrolled
 
@@ -91,7 +92,8 @@ class Modal:
             self.window.grab_release()
             self.window.destroy()
             if self.root.winfo_ismapped():          # keys go where they went before, whatever the desktop does
-                self.root.tk.call("focus", "-force", before if before and int(self.root.tk.call("winfo", "exists", before)) else ".")
+                self.root.tk.call("focus", "-force",
+                                  before if before and int(self.root.tk.call("winfo", "exists", before)) else ".")
         except tk.TclError:
             if closed(self.root):
                 raise SystemExit from None
@@ -152,7 +154,8 @@ class Touchoff(Modal):
             row = tk.Frame(w)
             row.pack(fill="x", pady=6)
             tk.Label(row, text=translate("Coordinate System:")).pack(side="left")
-            ttk.Combobox(row, textvariable=self.system, values=systems, state="readonly", width=max(14, len(systems[0]) + 2)).pack(side="left", padx=8)
+            ttk.Combobox(row, textvariable=self.system, values=systems, state="readonly",
+                         width=max(14, len(systems[0]) + 2)).pack(side="left", padx=8)
             for n in range(9):
                 w.bind(f"<Alt-Key-{n + 1}>", lambda event, n=n: self.system.set(systems[n]))
         row = tk.Frame(w)
@@ -174,7 +177,8 @@ class Touchoff(Modal):
         """Shows the value or what is wrong with it; true when it can be used."""
         number, problem = self.check(self.text())
         good = problem is None
-        self.shown.configure(text=f"= {number:f} {self.unit}" if good else problem, foreground=self.ink if good else colour(self.root, "bad"))
+        self.shown.configure(text=f"= {number:f} {self.unit}" if good else problem,
+                             foreground=self.ink if good else colour(self.root, "bad"))
         self.ok.configure(state="normal" if good else "disabled")
         return good
 

@@ -29,8 +29,8 @@ def paint(raster, items, matrix):
     for item in items:
         points = np.ascontiguousarray(item.vertices, np.float32)
         if len(points) > 1 and not item.triangles:
-            raster.draw(points, np.ascontiguousarray(item.kinds, np.uint8), [NOTHING, rgba(item.colour)], matrix, 0, len(points),
-                        max(1, round(item.width)))
+            raster.draw(points, np.ascontiguousarray(item.kinds, np.uint8), [NOTHING, rgba(item.colour)], matrix,
+                        0, len(points), max(1, round(item.width)))
 
 
 def paint_still(raster, scene, matrix):
@@ -69,7 +69,8 @@ class DrawnPicture(tk.Canvas):
         paint_still(self.layer, scene, matrix)
         self.delete("label")
         for x, y, text, colour, box in scene.labels:
-            made = self.create_text(x, y, text=text, fill=web(colour), font=self.font(label_size), anchor="s", tags="label")
+            made = self.create_text(x, y, text=text, fill=web(colour), font=self.font(label_size),
+                                    anchor="s", tags="label")
             if box:
                 self.create_rectangle(*self.bbox(made), outline=web(colour), tags="label")
 
@@ -88,13 +89,15 @@ class DrawnPicture(tk.Canvas):
         self.delete("text")
         for x0, y0, x1, y1, colour in scene.panels:
             if colour[3] > 0:
-                self.create_rectangle(x0, y0, x1, y1, fill=web(colour), outline="", stipple="gray75" if colour[3] < 1 else "", tags="text")
+                self.create_rectangle(x0, y0, x1, y1, fill=web(colour), outline="",
+                                      stipple="gray75" if colour[3] < 1 else "", tags="text")
         for x, y, text, colour, size in scene.texts:
             self.create_text(x, y, text=text, fill=web(colour), font=self.font(size), anchor="nw", tags="text")
         return True
 
     def draw_plot(self, scene):
-        """The plot: what will not change any more into the still layer, its end into the frame. False: it was shortened."""
+        """The plot: what will not change any more into the still layer, its end into the frame. False: it was
+        shortened."""
         data, count, second = scene.plot
         if count < self.plotted:
             return False

@@ -25,11 +25,13 @@ class Rates:
 
     @staticmethod
     def of(stat):
-        return Rates(round(stat.feedrate, 3), round(stat.rapidrate, 3), round(stat.spindle[0]["override"], 3), round(stat.max_velocity, 6))
+        return Rates(round(stat.feedrate, 3), round(stat.rapidrate, 3), round(stat.spindle[0]["override"], 3),
+                     round(stat.max_velocity, 6))
 
     def words(self):
         """Options of kerf-time; an override of 0 has no end: as if it were 100 %."""
-        return ["-f", str(self.feed or 1), "-r", str(self.rapid or 1), "-s", str(self.spindle or 1), "-v", str(max(self.max_velocity, 1e-6))]
+        return ["-f", str(self.feed or 1), "-r", str(self.rapid or 1), "-s", str(self.spindle or 1), "-v",
+                str(max(self.max_velocity, 1e-6))]
 
 
 def between(xs, ys, x):
@@ -76,7 +78,9 @@ class Times:
         best = None
         for i in range(max(0, here - NEAR), min(len(self.lines), here + NEAR)):
             if self.lines[i] == line or (i + 1 < len(self.lines) and self.lines[i] < line < self.lines[i + 1]):
-                first, last = self.seconds[i], self.seconds[i + 1] if i + 1 < len(self.seconds) else max(self.total or 0.0, self.seconds[i])
+                first, last = (self.seconds[i],
+                               self.seconds[i + 1] if i + 1 < len(self.seconds)
+                               else max(self.total or 0.0, self.seconds[i]))
                 distance = max(first - seconds, seconds - last, 0.0)
                 if best is None or distance < best[0]:
                     best = distance, first, last
@@ -107,8 +111,11 @@ class Estimate:
         path, init_codes, block_delete = self.job
         words = [word for code in init_codes for word in ("-i", code)]
         try:
-            self.child = subprocess.Popen(["nice", "-n", "10", "kerf-time", "-ini", self.ini_path, "-p", str(os.getpid()), "-b", str(int(block_delete)), *rates.words(), *self.waits.words(), *words, path],
-                                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+            self.child = subprocess.Popen(["nice", "-n", "10", "kerf-time", "-ini", self.ini_path, "-p",
+                                           str(os.getpid()), "-b", str(int(block_delete)), *rates.words(),
+                                           *self.waits.words(), *words, path],
+                                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                          stderr=subprocess.DEVNULL, text=True,
                                           cwd=os.path.dirname(os.path.abspath(self.ini_path)))
         except OSError:
             return                   # the sum of lengths stays

@@ -16,8 +16,9 @@ from .jog import SLIDER_LEAST, position
 from .program import path_codes
 from .settings import LETTERS
 
+# relative, commanded
 POSITIONS = {(False, False): N_("Position: Machine Actual"), (False, True): N_("Position: Machine Commanded"),
-             (True, False): N_("Position: Relative Actual"), (True, True): N_("Position: Relative Commanded")}     # relative, commanded
+             (True, False): N_("Position: Relative Actual"), (True, True): N_("Position: Relative Commanded")}
 STATES = {linuxcnc.STATE_ESTOP: N_("ESTOP"), linuxcnc.STATE_ON: N_("ON"), linuxcnc.STATE_OFF: N_("OFF")}
 ERROR_POLL_MS = 200
 OPTIONS = ("block_delete", "optional_stop")
@@ -107,7 +108,8 @@ class FollowPart:
             self.follow_status()
             self.preview.look()
         except linuxcnc.error as e:
-            self.jogger.running.clear()          # they have ended: there are no heartbeats, or there is nothing that moves
+            # they have ended: there are no heartbeats, or there is nothing that moves
+            self.jogger.running.clear()
             if not self.out_of_touch:
                 print(f"axis: the controller does not answer: {e}", file=sys.stderr)
             if "LINUXCNC_SESSION" in os.environ:  # the launcher tells why
@@ -127,7 +129,8 @@ class FollowPart:
     def follow_status(self):
         s, v = self.stat, self.vars
         put = v.put
-        for name in ("task_state", "task_mode", "interp_state", "exec_state", "motion_mode", "kinematics_type", "queued_mdi_commands"):
+        for name in ("task_state", "task_mode", "interp_state", "exec_state", "motion_mode", "kinematics_type",
+                     "queued_mdi_commands"):
             put(name, getattr(s, name))
         put("task_paused", int(s.task_paused))
         put("taskfile", s.file or "")
@@ -162,7 +165,8 @@ class FollowPart:
         def follows(name):               # an own change is on its way for a moment
             own = self.own_values.get(name)
             return own is None or now > own[1]
-        for name, value in (("feedrate", s.feedrate), ("rapidrate", s.rapidrate), ("spindlerate", s.spindle[0]["override"])):
+        for name, value in (("feedrate", s.feedrate), ("rapidrate", s.rapidrate),
+                            ("spindlerate", s.spindle[0]["override"])):
             if follows(name):
                 v.put(name, round(100 * value))
         for name in OPTIONS:             # halui and panels have buttons for them, too
@@ -188,9 +192,11 @@ class FollowPart:
             self.root.tk.call("::axis::show_joints", int(joints))
             if joints or not first:
                 self.activate_ja_widget("0" if joints else self.settings.coordinates[0])
-        if s.motion_mode == linuxcnc.TRAJ_MODE_COORD and s.task_mode == linuxcnc.MODE_MANUAL and s.interp_state == linuxcnc.INTERP_IDLE:
+        if (s.motion_mode == linuxcnc.TRAJ_MODE_COORD and s.task_mode == linuxcnc.MODE_MANUAL
+                and s.interp_state == linuxcnc.INTERP_IDLE):
             self.command.teleop_enable(1)
-        if self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON or s.task_mode != linuxcnc.MODE_MANUAL):
+        if (self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON
+                                     or s.task_mode != linuxcnc.MODE_MANUAL)):
             self.jogger.stop_all()
         extra = range(self.settings.joints - s.num_extrajoints, self.settings.joints)
         homed = tuple(j for j in extra if s.homed[j])
@@ -204,7 +210,8 @@ class FollowPart:
         self.last_state = state
 
     def follow_offsets(self):
-        """FP-134: the preview follows offsets, rotation, tool length, units and plane that were set by hand, once the machine is idle."""
+        """FP-134: the preview follows offsets, rotation, tool length, units and plane that were set by hand, once the
+        machine is idle."""
         if self.stale_since and clock.now() - self.stale_since > STALE_S and not self.loading and \
                 self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.task_mode != linuxcnc.MODE_AUTO:
             self.stale_since = None
@@ -256,8 +263,9 @@ class FollowPart:
 
     def show_readout(self):
         v, s = self.vars, self.stat
-        view = SimpleNamespace(relative=bool(v.coord_type.get()), commanded=bool(v.display_type.get()), metric=bool(v.metric.get()),
-                               joints=bool(self.joints_shown), offsets=bool(v.show_offsets.get()), speed=bool(v.show_machine_speed.get()),
+        view = SimpleNamespace(relative=bool(v.coord_type.get()), commanded=bool(v.display_type.get()),
+                               metric=bool(v.metric.get()), joints=bool(self.joints_shown),
+                               offsets=bool(v.show_offsets.get()), speed=bool(v.show_machine_speed.get()),
                                distance_to_go=bool(v.show_distance_to_go.get()), extra_joints=s.num_extrajoints)
         text = self.translate("Position: Joint") if view.joints else \
             self.translate(POSITIONS[view.relative, view.commanded])
@@ -267,12 +275,15 @@ class FollowPart:
         self.preview.stat = s
         homed = [bool(s.homed[j]) for j in range(self.settings.joints)]
         limited = [bool(x) for x in s.limit[:self.settings.joints]]
-        self.preview.readout_lines = self.readout.lines(s, view) if not v.show_offsets.get() else [x for x in long_lines if x]
+        self.preview.readout_lines = (self.readout.lines(s, view) if not v.show_offsets.get()
+                                      else [x for x in long_lines if x])
         self.preview.marks = list(zip(homed, limited))
-        key = (tuple(s.actual_position), tuple(long_lines), tuple(homed), tuple(limited), s.tool_in_spindle, path_codes(s))
+        key = (tuple(s.actual_position), tuple(long_lines), tuple(homed), tuple(limited),
+               s.tool_in_spindle, path_codes(s))
         if key == self.widget_signs.get("readout"):
             return
-        still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset), s.tool_in_spindle, path_codes(s))
+        still = (tuple(s.g5x_offset), tuple(s.g92_offset), s.rotation_xy, tuple(s.tool_offset),
+                 s.tool_in_spindle, path_codes(s))
         if still != self.widget_signs.get("offsets"):
             if "offsets" in self.widget_signs:
                 self.stale_since = clock.now()
@@ -320,6 +331,7 @@ class FollowPart:
         try:
             while message := self.errors.poll():
                 kind, text = message
-                self.notifications.add("error" if kind in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR) else "info", text)
+                self.notifications.add("error" if kind in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR) else "info",
+                                       text)
         except linuxcnc.error:
             pass            # tick() tells when the controller is gone

@@ -9,8 +9,10 @@ from PIL import Image, ImageDraw
 
 OVERSAMPLE = 4
 # Inks for a light and a dark ground; each can be told from a button, pressed or not.
-LIGHT = {"ink": "#2b2f36", "bad": "#c62828", "good": "#1a7a33", "blue": "#1f5fa8", "quiet": "#6c7480", "gold": "#a06c00", "ring_colour": "#c62828"}
-DARK = {"ink": "#e4e6ea", "bad": "#ff6b5e", "good": "#5fd17f", "blue": "#7fb2f0", "quiet": "#9aa1ab", "gold": "#e0a020", "ring_colour": "#ffffff"}
+LIGHT = {"ink": "#2b2f36", "bad": "#c62828", "good": "#1a7a33", "blue": "#1f5fa8", "quiet": "#6c7480",
+         "gold": "#a06c00", "ring_colour": "#c62828"}
+DARK = {"ink": "#e4e6ea", "bad": "#ff6b5e", "good": "#5fd17f", "blue": "#7fb2f0", "quiet": "#9aa1ab", "gold": "#e0a020",
+        "ring_colour": "#ffffff"}
 EMERGENCY = "#c62828"
 
 
@@ -34,13 +36,15 @@ class Pen:
         self.draw.polygon(self.points(*xy), fill=colour or self.ink)
 
     def ring(self, x, y, r, colour=None, width=2):
-        self.draw.ellipse(self.points(x - r, y - r, x + r, y + r), outline=colour or self.ink, width=round(width * self.scale))
+        self.draw.ellipse(self.points(x - r, y - r, x + r, y + r), outline=colour or self.ink,
+                          width=round(width * self.scale))
 
     def disc(self, x, y, r, colour=None):
         self.draw.ellipse(self.points(x - r, y - r, x + r, y + r), fill=colour or self.ink)
 
     def arc(self, x, y, r, start, end, colour=None, width=2):
-        self.draw.arc(self.points(x - r, y - r, x + r, y + r), start, end, fill=colour or self.ink, width=round(width * self.scale))
+        self.draw.arc(self.points(x - r, y - r, x + r, y + r), start, end, fill=colour or self.ink,
+                      width=round(width * self.scale))
 
     def rect(self, x0, y0, x1, y1, colour=None):
         self.draw.rectangle(self.points(x0, y0, x1, y1), fill=colour or self.ink)

@@ -84,7 +84,8 @@ class Jogger:
     # -- starting and stopping -------------------------------------------------------------
 
     def start(self, owner, selected, direction, fast=False, speed=None):
-        """Begins a jog of a letter or joint; returns True when it was sent. speed: units a second, None: that of the slider."""
+        """Begins a jog of a letter or joint; returns True when it was sent. speed: units a
+        second, None: that of the slider."""
         app = self.app
         if owner in self.running or app.is_late() or not app.jog_allowed():
             return False

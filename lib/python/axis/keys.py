@@ -7,26 +7,27 @@ import tkinter as tk
 MODIFIERS = 1 | 4 | 8 | 32 | 64 | 128      # Shift Control Mod1 ...; NumLock (16) and Lock (2) are allowed
 JOG_KEYS = {                               # keysym -> (place in the jog order, direction)
     "Left": (0, -1), "Right": (0, 1), "Down": (1, -1), "Up": (1, 1), "Next": (2, -1), "Prior": (2, 1),
-    "bracketleft": (3, -1), "bracketright": (3, 1), "KP_Left": (0, -1), "KP_Right": (0, 1), "KP_4": (0, -1), "KP_6": (0, 1),
-    "KP_Down": (1, -1), "KP_Up": (1, 1), "KP_2": (1, -1), "KP_8": (1, 1), "KP_Next": (2, -1), "KP_Prior": (2, 1),
-    "KP_3": (2, -1), "KP_9": (2, 1),
+    "bracketleft": (3, -1), "bracketright": (3, 1), "KP_Left": (0, -1), "KP_Right": (0, 1), "KP_4": (0, -1),
+    "KP_6": (0, 1), "KP_Down": (1, -1), "KP_Up": (1, 1), "KP_2": (1, -1), "KP_8": (1, 1), "KP_Next": (2, -1),
+    "KP_Prior": (2, 1), "KP_3": (2, -1), "KP_9": (2, 1),
 }
-SIGNS = set("0123456789I") | {"grave", "comma", "period", "less", "greater", "semicolon", "apostrophe"}      # with Shift on some keyboards
+# with Shift on some keyboards
+SIGNS = set("0123456789I") | {"grave", "comma", "period", "less", "greater", "semicolon", "apostrophe"}
 FUNCTION_KEY = re.compile("F[0-9]+")
 CHORD = ("Shift_L", "Shift_R", "Control_L", "Control_R", "Alt_L", "Alt_R", "Meta_L", "Meta_R", "Super_L", "Super_R")
 OWN_KEYS = ("Entry", "Spinbox", "Listbox", "TEntry", "TCombobox", "TSpinbox", "Treeview")
 PLAIN = {                                  # without modifiers: key -> command
     "F2": "onoff_clicked", "F4": "next_tab", "F7": "mist_toggle", "F8": "flood_toggle", "F9": "spindle_forward_toggle",
-    "F10": "spindle_backward_toggle", "b": "brake_off", "o": "open_file", "r": "task_run", "t": "task_step", "p": "task_pause",
-    "s": "task_resume", "Escape": "task_stop", "l": "toggle_override_limits", "v": "cycle_view", "Home": "home_joint",
-    "End": "touch_off_system", "KP_Home": "home_joint", "KP_End": "touch_off_system",
+    "F10": "spindle_backward_toggle", "b": "brake_off", "o": "open_file", "r": "task_run", "t": "task_step",
+    "p": "task_pause", "s": "task_resume", "Escape": "task_stop", "l": "toggle_override_limits", "v": "cycle_view",
+    "Home": "home_joint", "End": "touch_off_system", "KP_Home": "home_joint", "KP_End": "touch_off_system",
 }
 BOUND = {                                  # as Tk names them: exactly these modifiers; Shift does not matter for signs
     "<Shift-Key-B>": "brake_on", "<Shift-Key-R>": "task_reverse", "<Shift-Key-F>": "task_forward",
     "<Control-Key-r>": "reload_file", "<Control-Key-s>": "save_gcode", "<Control-Key-k>": "clear_live_plot",
-    "<Control-Key-Home>": "home_all_joints", "<Shift-Key-Home>": "set_axis_offset", "<Control-Key-End>": "touch_off_tool",
-    "<Key-exclam>": "toggle_metric", "<Key-at>": "toggle_display_type", "<Key-numbersign>": "toggle_coord_type",
-    "<Key-dollar>": "toggle_teleop_mode",
+    "<Control-Key-Home>": "home_all_joints", "<Shift-Key-Home>": "set_axis_offset",
+    "<Control-Key-End>": "touch_off_tool", "<Key-exclam>": "toggle_metric", "<Key-at>": "toggle_display_type",
+    "<Key-numbersign>": "toggle_coord_type", "<Key-dollar>": "toggle_teleop_mode",
 }
 SHIFT, CONTROL = 1, 4
 
@@ -48,7 +49,8 @@ class Keys:
         for sequence, function in (
                 ("<Key-F3>", lambda: app.raise_tab("manual")), ("<Key-F5>", lambda: app.raise_tab("mdi")),
                 ("<Control-Key-Tab>", app.other_tab), ("<Control-Key-e>", app.toggle_panel),
-                ("<Control-Key-space>", app.notifications.clear), ("<Key-Return>", root.focus_set), ("<Key-KP_Enter>", root.focus_set)):
+                ("<Control-Key-space>", app.notifications.clear), ("<Key-Return>", root.focus_set),
+                ("<Key-KP_Enter>", root.focus_set)):
             self.bind(sequence, function)
         for key, command in (("F11", "spindle_decrease"), ("F12", "spindle_increase")):
             root.bind(f"<KeyPress-{key}>", lambda event, c=command: self.spindle(event, c))
@@ -90,7 +92,8 @@ class Keys:
         return "break"
 
     def in_entry(self, event):
-        """The keyboard belongs to a widget that takes text or has keys of its own; it may be one that a user's Tcl code made."""
+        """The keyboard belongs to a widget that takes text or has keys of its own; it may be one that a user's Tcl
+        code made."""
         call, path = self.app.root.tk.call, str(event.widget)
         try:
             kind = str(call("winfo", "class", path))
@@ -174,7 +177,8 @@ class Keys:
             app.digit(0 if key == "grave" else int(key), key == "grave")
             return True
         steps = {"comma": ("jog_slider_val", -1), "period": ("jog_slider_val", 1), "less": ("ajog_slider_val", -1),
-                 "greater": ("ajog_slider_val", 1), "semicolon": ("maxvel_slider_val", -1), "apostrophe": ("maxvel_slider_val", 1)}
+                 "greater": ("ajog_slider_val", 1), "semicolon": ("maxvel_slider_val", -1),
+                 "apostrophe": ("maxvel_slider_val", 1)}
         if key in steps:
             app.step_slider(*steps[key])
         elif key == "i":

@@ -11,8 +11,10 @@ from .icons import Icons
 from .notify import WRAP_PX
 
 # What AXIS has beside the colours of all Tk programs.
-LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#70767f", "chosen": "#b9d3ee", "trough": "#c9c5bd", "mark": "#fffffe"}
-DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#34496a", "trough": "#44474c", "mark": "#1e1f23"}
+LIGHT = {"dro_back": "#101418", "dro": "#e8f0f6", "running": "#804040", "number": "#70767f", "chosen": "#b9d3ee",
+         "trough": "#c9c5bd", "mark": "#fffffe"}
+DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number": "#8a919c", "chosen": "#34496a",
+        "trough": "#44474c", "mark": "#1e1f23"}
 TOUCH = 1.7                     # buttons and sliders for gloves, where the screen has room for them
 USUAL_WINDOW, SASH = (1280, 860), 10
 CODE_LINES = 6                   # of the program in sight on a low screen, if there is room
@@ -37,7 +39,8 @@ class LooksPart:
     def layout(self):
         """What a low screen has beside each other, or less of."""
         low = self.low() or (self.touch() and self.root.winfo_screenheight() < 800 * self.style.scale)
-        for name, value in (("code_lines", 3 if self.low() else 4 if low else 9), ("gap", 2 if low else self.style.px(8)), ("spindle_side", "left" if low else "top")):
+        for name, value in (("code_lines", 3 if self.low() else 4 if low else 9),
+                            ("gap", 2 if low else self.style.px(8)), ("spindle_side", "left" if low else "top")):
             self.root.tk.setvar(f"::axis::{name}", value)
 
     def touch(self):
@@ -63,19 +66,22 @@ class LooksPart:
     def apply_style(self):
         """Fonts, option database, colours of the Tcl side."""
         root = self.root
-        self.style = style = tkstyle.apply(root, self.prefs.getpref("dark_theme", False), fits=False, most=self.most_scale)
+        self.style = style = tkstyle.apply(root, self.prefs.getpref("dark_theme", False), fits=False,
+                                           most=self.most_scale)
         colours = dict(style.colours) | (DARK if style.dark else LIGHT)
         for name, value in colours.items():
             root.tk.setvar(f"::axis::colour({name})", value)
         self.colours = colours
         root.tk.call("font", "configure", "AxisBold", "-size", -self.letters_px())
         touch, pad = self.roominess(), self.padding()
-        for pattern, value in (("*Listbox.Font", "TkFixedFont"), ("*troughColor", colours["trough"]), ("*Button.borderWidth", 1),
-                               ("*Entry.highlightThickness", 1), ("*Scrollbar.borderWidth", 1), ("*Scrollbar.width", style.px(15 * touch)),
+        for pattern, value in (("*Listbox.Font", "TkFixedFont"), ("*troughColor", colours["trough"]),
+                               ("*Button.borderWidth", 1), ("*Entry.highlightThickness", 1),
+                               ("*Scrollbar.borderWidth", 1), ("*Scrollbar.width", style.px(15 * touch)),
                                ("*Scale.borderWidth", 1), ("*Scale.width", style.px(15 * touch * touch)),
-                               ("*Scale.sliderLength", style.px(28 * touch)), ("*Button.padY", pad), ("*Button.padX", style.px(8)),
-                               ("*Checkbutton.selectColor", colours["mark"]), ("*Radiobutton.selectColor", colours["mark"]),
-                               ("*Checkbutton.padY", pad * 2 // 3), ("*Radiobutton.padY", pad * 2 // 3), ("*readonlyBackground", colours["field"])):
+                               ("*Scale.sliderLength", style.px(28 * touch)), ("*Button.padY", pad),
+                               ("*Button.padX", style.px(8)), ("*Checkbutton.selectColor", colours["mark"]),
+                               ("*Radiobutton.selectColor", colours["mark"]), ("*Checkbutton.padY", pad * 2 // 3),
+                               ("*Radiobutton.padY", pad * 2 // 3), ("*readonlyBackground", colours["field"])):
             root.option_add(pattern, value, "startupFile")
         tkinter.ttk.Style(root).configure("TCombobox", padding=style.px(8 if touch > 1 else 3))
 
@@ -83,7 +89,8 @@ class LooksPart:
         """The size with room for everything. Panes are asked one by one: together they ask for what they have."""
         number = lambda what, path: int(self.root.tk.call("winfo", what, path))     # noqa: E731
         panes = (".pane.top", ".pane.bottom")
-        height = self.root.winfo_reqheight() - number("reqheight", ".pane") + sum(number("reqheight", p) for p in panes) + SASH
+        height = self.root.winfo_reqheight() - number("reqheight",
+                                                      ".pane") + sum(number("reqheight", p) for p in panes) + SASH
         return max(self.root.winfo_reqwidth(), *(number("reqwidth", p) for p in panes)), height
 
     def fit_screen(self):
@@ -130,8 +137,9 @@ class LooksPart:
         self.recolour(self.root, mapping)
         for book in (".pane.top.tabs", ".pane.top.right"):
             for page in self.root.tk.splitlist(self.root.tk.call(book, "pages")):
-                self.root.tk.call(book, "itemconfigure", page, "-background", self.colours["face"], "-foreground", self.colours["ink"],
-                                  "-activebackground", self.colours["pressed"], "-activeforeground", self.colours["ink"])
+                self.root.tk.call(book, "itemconfigure", page, "-background", self.colours["face"], "-foreground",
+                                  self.colours["ink"], "-activebackground", self.colours["pressed"],
+                                  "-activeforeground", self.colours["ink"])
         self.layout()
         self.resize_widgets()
         self.icons.restyle(self.icon_px(), self.style.dark)
@@ -169,7 +177,8 @@ class LooksPart:
         """Room in buttons and sliders."""
         tcl, style = self.root.tk, self.style
         touch, pad = self.roominess(), self.padding()
-        sizes = {"Button": (("-pady", pad),), "Checkbutton": (("-pady", pad * 2 // 3),), "Radiobutton": (("-pady", pad * 2 // 3),),
+        sizes = {"Button": (("-pady", pad),), "Checkbutton": (("-pady", pad * 2 // 3),),
+                 "Radiobutton": (("-pady", pad * 2 // 3),),
                  "Scale": (("-width", style.px(15 * touch * touch)), ("-sliderlength", style.px(28 * touch))),
                  "Scrollbar": (("-width", style.px(15 * touch)),)}
 

@@ -24,7 +24,8 @@ class Message(tk.Frame):
 
     def __init__(self, stack, kind, text):
         back, fore, sign = COLOURS[kind]
-        super().__init__(stack.frame, background=back, padx=8, pady=6, highlightthickness=1, highlightbackground="#ffffff")
+        super().__init__(stack.frame, background=back, padx=8, pady=6, highlightthickness=1,
+                         highlightbackground="#ffffff")
         self.stack, self.kind, self.text = stack, kind, text
         self.sign = tk.Label(self, text=sign, background=back, foreground=fore)
         self.label = tk.Label(self, text=text, background=back, foreground=fore, justify="left")
@@ -53,7 +54,8 @@ class Message(tk.Frame):
     def show_all(self):
         """A click on a text that is cut shows it whole."""
         if str(self.label.cget("text")) != self.text:
-            dialogs.ask(self.stack.root, _("Message"), self.label.cget("text").split("\n")[0], self.kind, 0, _("OK"), extra=self.text, escape=0)
+            dialogs.ask(self.stack.root, _("Message"), self.label.cget("text").split("\n")[0], self.kind, 0, _("OK"),
+                        extra=self.text, escape=0)
 
 
 class Notifications:
@@ -69,8 +71,8 @@ class Notifications:
         root.bind("<Configure>", self._resized, "+")
 
     def button(self, holder, text, command):
-        return tk.Button(holder, text=text, background=holder.cget("background"), foreground="#ffffff", relief="flat", takefocus=False,
-                         padx=2 + self.pad, pady=self.pad, command=command)
+        return tk.Button(holder, text=text, background=holder.cget("background"), foreground="#ffffff", relief="flat",
+                         takefocus=False, padx=2 + self.pad, pady=self.pad, command=command)
 
     def add(self, kind, text):
         kind = kind if kind in COLOURS else "info"
@@ -100,7 +102,8 @@ class Notifications:
         """Shows the newest ones that have room, above them how many more there are."""
         self.size = self.root.winfo_width(), self.root.winfo_height()
         # A window that was never shown has no size yet.
-        width, height = (have if have > 1 else asked for have, asked in zip(self.size, (self.root.winfo_reqwidth(), self.root.winfo_reqheight())))
+        width, height = (have if have > 1 else asked
+                         for have, asked in zip(self.size, (self.root.winfo_reqwidth(), self.root.winfo_reqheight())))
         for child in self.frame.pack_slaves():
             child.pack_forget()
         self.header.destroy()
@@ -127,7 +130,8 @@ class Notifications:
 
     def _head(self):
         """The line above many messages."""
-        header = tk.Frame(self.frame, background=GROUND, padx=8, pady=2, highlightthickness=1, highlightbackground="#ffffff")
+        header = tk.Frame(self.frame, background=GROUND, padx=8, pady=2, highlightthickness=1,
+                          highlightbackground="#ffffff")
         tk.Label(header, background=GROUND, foreground="#ffffff").pack(side="left")
         self.button(header, _("Close all"), self.clear).pack(side="right")
         return header

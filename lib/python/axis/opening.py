@@ -60,8 +60,10 @@ class OpeningPart:
                 except program.FilterFailed as e:
                     if self.cancel_loading:
                         return
-                    text = self.translate("The program '%s' exited with code %d.  Any error messages it produced are shown below:") % (e.program, e.status)
-                    dialogs.ask(self.root, self.translate("Filter failed"), text, "error", 0, self.translate("OK"), extra=e.text)
+                    text = self.translate("The program '%s' exited with code %d.  Any error messages it "
+                                          "produced are shown below:") % (e.program, e.status)
+                    dialogs.ask(self.root, self.translate("Filter failed"), text, "error", 0,
+                                self.translate("OK"), extra=e.text)
                     return
             elif through_filter:
                 shown = os.path.join(self.loader.folder, "filtered-" + os.path.basename(path))
@@ -97,7 +99,8 @@ class OpeningPart:
             self.ensure_mode(linuxcnc.MODE_MANUAL)
         c.task_plan_synch()
         self.until_done()
-        for _ in range(OPEN_TRIES):              # what is copied is what task takes: the file does not change from the one to the other
+        # what is copied is what task takes: the file does not change from the one to the other
+        for _ in range(OPEN_TRIES):
             self.disk_state, self.changed_on_disk = self.state_on_disk(), False
             self.kept = self.beside(self.loader.kept_text, self.shown_file)
             kept = self.beside(program.text_hash, self.kept)
@@ -150,16 +153,19 @@ class OpeningPart:
     def mark_cut_off(self):
         """The line at which the last run was cut off, in the program of that run."""
         s = self.stat
-        if s.cut_off_line > 0 and os.path.realpath(s.cut_off_file) in (os.path.realpath(f) for f in (self.loaded_file, self.shown_file)):
+        if (s.cut_off_line > 0 and os.path.realpath(s.cut_off_file) in (os.path.realpath(f)
+                                                                        for f in (self.loaded_file, self.shown_file))):
             self.set_highlight_line(s.cut_off_line)
-            self.notifications.add("info", self.translate("The last run was cut off at line %d, which is marked. Home the machine, then start at the selected line: "
+            self.notifications.add("info",
+                                   self.translate("The last run was cut off at line %d, which is marked. Home the "
+                                                  "machine, then start at the selected line: "
                                                           "each item is shown before anything moves.") % s.cut_off_line)
         self.loading = False
         self.keep_record(True)
 
     def answer(self):
-        """Handles what waits, for ANSWER_S at most: on a slow machine the next update cycle is due before the last one is drawn,
-        and Tk's own update() would never come back."""
+        """Handles what waits, for ANSWER_S at most: on a slow machine the next update cycle is due before the last one
+        is drawn, and Tk's own update() would never come back."""
         end = time.monotonic() + ANSWER_S
         while self.root.tk.dooneevent(_tkinter.DONT_WAIT) and time.monotonic() < end:
             pass
@@ -190,7 +196,8 @@ class OpeningPart:
         self.stale_since = None
         timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
         boxed = self.loader.too_large(self.shown_file)
-        path, drawings = self.read_program(() if boxed else self.preview.places(), timeout if timeout > 0 else LONGEST_PREVIEW_S, 50)
+        path, drawings = self.read_program(() if boxed else self.preview.places(),
+                                           timeout if timeout > 0 else LONGEST_PREVIEW_S, 50)
         self.picture_conditions = self.limit_conditions
         if self.cancel_loading and quiet:
             return
@@ -200,13 +207,16 @@ class OpeningPart:
         if path.late:
             self.tell_of_preview(self.translate("G-code preview loading timed out"))
         elif path.failed == "memory":
-            self.tell_of_preview(self.translate("The preview of %s needs more than %d MB of memory. Nothing is drawn; the program can be run.") % (name, self.loader.megabytes))
+            self.tell_of_preview(self.translate("The preview of %s needs more than %d MB of memory. Nothing is drawn; "
+                                                "the program can be run.") % (name, self.loader.megabytes))
         elif path.failed:
-            self.tell_of_preview(self.translate("The preview of %s ended by a fault (%s). Nothing is drawn; the program can be run.") % (name, path.failed))
+            self.tell_of_preview(self.translate("The preview of %s ended by a fault (%s). Nothing is drawn; the "
+                                                "program can be run.") % (name, path.failed))
         if quiet:
             return
         if boxed:
-            self.tell_of_preview(self.translate("The file is larger than GRAPHICAL_MAX_FILE_SIZE: only its bounds are drawn"))
+            self.tell_of_preview(self.translate("The file is larger than GRAPHICAL_MAX_FILE_SIZE: only "
+                                                "its bounds are drawn"))
         elif path.thinned > 1:
             self.tell_of_preview(self.translate("The program is very long: one piece of %d is drawn") % path.thinned)
         if path.notify:
@@ -224,16 +234,20 @@ class OpeningPart:
         print(f"axis: {self.shown_file}: {text}", file=sys.stderr)
 
     def read_program(self, places, seconds, percent):
-        """(reading.Program, drawings) of the program as it would run now; the limits are checked against it. percent: of the bar, where it begins."""
+        """(reading.Program, drawings) of the program as it would run now; the limits are checked against it. percent:
+        of the bar, where it begins."""
         self.stat.poll()
         block_delete, total = bool(self.vars.block_delete.get()), max(1, self.code.total)
         conditions = self.conditions()
         reading = self.loader.read(self.kept, self.stat, block_delete, places, seconds)
-        path, drawings = self.beside(reading.result, lambda line: self.progress(percent + (100 - percent) * min(1, line / total)))
+        path, drawings = self.beside(reading.result,
+                                     lambda line: self.progress(percent + (100 - percent) * min(1, line / total)))
         if path.fault:                           # is told of the file that the operator knows
-            path.fault = {name: value.replace(self.kept, self.shown_file) if isinstance(value, str) else value for name, value in path.fault.items()}
+            path.fault = {name: value.replace(self.kept, self.shown_file) if isinstance(value, str) else value
+                          for name, value in path.fault.items()}
         self.limit_path, self.limit_conditions = path, conditions
-        self.limits_final = not path.aborted or path.late and seconds >= LONGEST_PREVIEW_S or bool(path.failed) and not places
+        self.limits_final = (not path.aborted or path.late and seconds >= LONGEST_PREVIEW_S or bool(path.failed)
+                             and not places)
         return path, drawings
 
     def conditions(self):
@@ -241,8 +255,9 @@ class OpeningPart:
         return self.loader.conditions(self.shown_file, self.stat, bool(self.vars.block_delete.get()))
 
     def find_limits(self):
-        """The limits do not depend on the preview (FP-136): where it was cancelled or capped, did not come about, or was made under
-        other conditions, they get a reading of their own, without a drawing. False: the operator ended it."""
+        """The limits do not depend on the preview (FP-136): where it was cancelled or capped, did not come about, or
+        was made under other conditions, they get a reading of their own, without a drawing.
+        False: the operator ended it."""
         self.stat.poll()
         if not self.shown_file or self.stat.interp_state != linuxcnc.INTERP_IDLE:
             return True
@@ -259,7 +274,8 @@ class OpeningPart:
     def estimate_time(self):
         """The run time is found out anew, from where the machine stands."""
         if self.shown_file:
-            self.estimate.start(self.kept, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()), Rates.of(self.stat))
+            self.estimate.start(self.kept, self.loader.init_codes(self.stat), bool(self.vars.block_delete.get()),
+                                Rates.of(self.stat))
 
     def state_on_disk(self):
         """What tells a change of the opened file, or None when it is gone."""
@@ -270,7 +286,8 @@ class OpeningPart:
         return found.st_size, found.st_mtime_ns, found.st_ctime_ns, found.st_ino
 
     def same_text(self, now):
-        """Whether the file, that has another state `now`, holds the text that was opened; None: that is still being found out."""
+        """Whether the file, that has another state `now`, holds the text that was opened; None: that is still being
+        found out."""
         if now is None or now[0] != self.loaded_text[0]:
             return False
         if self.comparison is None or self.comparison[0] != now:
@@ -307,7 +324,8 @@ class OpeningPart:
             self.disk_state, self.changed_on_disk = now, False
         elif same is not None:
             self.disk_state, self.changed_on_disk = now, True
-            what = self.translate("%s was changed on disk. The program as it was opened stays loaded; reload to take the new one.") if now else \
+            what = self.translate("%s was changed on disk. The program as it was opened stays loaded; reload to "
+                                  "take the new one.") if now else \
                 self.translate("%s is gone from the disk. The program as it was opened stays loaded.")
             self.notifications.add("info", what % os.path.basename(self.loaded_file))
 
@@ -318,7 +336,8 @@ class OpeningPart:
         line = self.vars.highlight_line.get()
         source = self.loaded_file
         if not refilter and not self.is_filtered and (self.changed_on_disk or self.state_on_disk() != self.disk_state):
-            return                   # the new text comes with a reload that was asked for; this one can not be run any more
+            # the new text comes with a reload that was asked for; this one can not be run any more
+            return
         if refilter or not self.is_filtered:
             if self.is_filtered:
                 self.open_file_guts(source, addrecent=False)
@@ -340,8 +359,8 @@ class OpeningPart:
 
     def show_title(self):
         screen = Tree.find().version(), self.settings.machine
-        self.root.title(self.translate("%s - AXIS %s on %s") % (os.path.basename(self.loaded_file), *screen) if self.loaded_file else
-                        self.translate("AXIS %s on %s (no file)") % screen)
+        self.root.title(self.translate("%s - AXIS %s on %s") % (os.path.basename(self.loaded_file), *screen)
+                        if self.loaded_file else self.translate("AXIS %s on %s (no file)") % screen)
 
     def set_highlight_line(self, line):
         line = int(line) if line and int(line) > 0 else -1
@@ -355,11 +374,13 @@ class OpeningPart:
 
     def begin_progress(self):
         self.loading, self.cancel_loading = True, False
-        self.bar = self.root.nametowidget(".info.progress") if self.known(".info.progress") else self.wrap(".info.progress")
+        self.bar = (self.root.nametowidget(".info.progress") if self.known(".info.progress")
+                    else self.wrap(".info.progress"))
         self.root.tk.call("pack", "forget", ".info.position")
         self.root.tk.call("pack", ".info.progress", "-side", "left", "-fill", "both", "-expand", 1)
         self.root.tk.call(".info.progress", "delete", "all")
-        self.root.tk.call(".info.progress", "create", "rectangle", -10, -10, -10, -10, "-fill", "#2f6db5", "-outline", "")
+        self.root.tk.call(".info.progress", "create", "rectangle", -10, -10, -10, -10, "-fill", "#2f6db5",
+                          "-outline", "")
         self.root.configure(cursor="watch")
         self.root.update_idletasks()
         self.percent = 0.0
@@ -463,8 +484,10 @@ class OpeningPart:
             if self.cancel_loading:
                 c.abort()
             return                   # task told the reason
-        answer = dialogs.ask(self.root, _("Run from line %d") % s.restore_line, _("Before the program goes on at line %d, this is done:") % s.restore_line,
-                             "warning", 2, _("Restore and run"), _("Run without"), _("Cancel"), extra=s.restore_text, escape=2)
+        answer = dialogs.ask(self.root, _("Run from line %d") % s.restore_line,
+                             _("Before the program goes on at line %d, this is done:") % s.restore_line,
+                             "warning", 2, _("Restore and run"), _("Run without"), _("Cancel"),
+                             extra=s.restore_text, escape=2)
         self.notifications.drop(lambda text: s.restore_text[:60] in text)       # the dialog told it
         restored = s.restore_line
         s.poll()

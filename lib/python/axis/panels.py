@@ -169,7 +169,8 @@ class PanelsPart:
             for entry in self.ini.findall("HAL", "POSTGUI_HALFILE") or []:
                 name, *args = entry.split()
                 name = os.path.expanduser(name)
-                lines.append(["haltcl", "-i", ini, name, *args] if name.endswith(".tcl") else ["halcmd", "-i", ini, "-f", name])
+                lines.append(["haltcl", "-i", ini, name, *args] if name.endswith(".tcl")
+                             else ["halcmd", "-i", ini, "-f", name])
             lines += [["halcmd", *line.split()] for line in self.ini.findall("HAL", "POSTGUI_HALCMD") or []]
         before = set(hal.query.comps()) if lines else ()
         for words in lines:
@@ -180,18 +181,23 @@ class PanelsPart:
                 self.root.destroy()
                 return
         if lines:
-            self.loaded = {name: comp["pid"] for name, comp in hal.query.comps().items() if name not in before and comp["type"] == hal.CompType.USER}
+            self.loaded = {name: comp["pid"]
+                           for name, comp in hal.query.comps().items()
+                           if name not in before and comp["type"] == hal.CompType.USER}
         self.show()
 
     def own_components(self):
         """Names of the components whose pins come and go with the screen."""
-        loaded = [words[words.index("-Wn") + 1] for words in (line.split() for _, line in self.children if line.startswith(LOADUSR)) if "-Wn" in words[:-1]]
+        loaded = [words[words.index("-Wn") + 1]
+                  for words in (line.split() for _, line in self.children if line.startswith(LOADUSR))
+                  if "-Wn" in words[:-1]]
         return {"axisui", "pyvcp", *self.tab_names, *loaded}
 
     def parts(self):
         """Ids of the processes that show something in the screen."""
         owners = [hal.query.comp(name) for name in self.own_components()] if self.comp is not None else []
-        pids = {child.pid for child, _ in self.children if child.poll() is None} | {owner["pid"] for owner in owners if owner}
+        pids = ({child.pid for child, _ in self.children if child.poll() is None}
+                | {owner["pid"] for owner in owners if owner})
         return sorted(pids - {os.getpid()})
 
     def look_at_children(self):
@@ -199,11 +205,14 @@ class PanelsPart:
         for name, pid in list(self.loaded.items()):
             if not hal.component_exists(name):       # of the dead HAL takes the pins away, its bits fall
                 del self.loaded[name]
-                self.notifications.add("error", self.translate("%s (process %d) has ended: what it did is no longer done") % (name, pid))
+                self.notifications.add("error",
+                                       self.translate("%s (process %d) has ended: what it did is no longer done")
+                                       % (name, pid))
         for i, (child, line) in enumerate(self.children):
             if child.poll() and i not in self.told_children and not line.startswith(LOADUSR):
                 self.told_children.add(i)
-                self.notifications.add("error", f"{line}: {self.translate('ended with status %d') % (child.returncode if child.returncode > 0 else 128 - child.returncode)}")
+                self.notifications.add("error",
+                                       f"{line}: {self.translate('ended with status %d') % (child.returncode if child.returncode > 0 else 128 - child.returncode)}")
 
     def end_children(self):
         """Programs of tabs end with the screen; components that halcmd loaded do not."""

@@ -57,7 +57,8 @@ class PinsPart:
         """Hides spindle, coolant and limit widgets that nothing in HAL listens to."""
         if os.environ.get("AXIS_NO_AUTOCONFIGURE") or self.comp is None:
             return
-        has = self.writers = (self.former or {}).get("writers") or {pin: hal.pin_has_writer(pin) for pin in self.watched_pins()}
+        has = self.writers = (self.former or {}).get("writers") or {pin: hal.pin_has_writer(pin)
+                                                                    for pin in self.watched_pins()}
         speeds = [f"spindle.0.{n}" for n in ("speed-out", "speed-out-abs", "speed-out-rps", "speed-out-rps-abs")]
 
         def any_of(*names):
@@ -65,10 +66,14 @@ class PinsPart:
         f, r, on, brake = (f"spindle.0.{n}" for n in ("forward", "reverse", "on", "brake"))
         mist, flood = "iocontrol.0.coolant-mist", "iocontrol.0.coolant-flood"
         manual = ".pane.top.tabs.fmanual"
-        rules = (((brake,), ("pack", f"{manual}.spindlef.brake")), ((f, on, *speeds), ("pack", f"{manual}.spindlef.cw")),
-                 ((r, *speeds), ("pack", f"{manual}.spindlef.ccw")), ((f, r, on, *speeds), ("pack", f"{manual}.spindlef.stop")),
-                 (speeds, ("pack", f"{manual}.spindlef.spindleminus")), (speeds, ("pack", f"{manual}.spindlef.spindleplus")),
-                 (speeds, ("grid", ".pane.top.spinoverride")), ((f, r, on, brake, *speeds), ("grid", f"{manual}.spindlef")),
+        rules = (((brake,), ("pack", f"{manual}.spindlef.brake")),
+                 ((f, on, *speeds), ("pack", f"{manual}.spindlef.cw")),
+                 ((r, *speeds), ("pack", f"{manual}.spindlef.ccw")),
+                 ((f, r, on, *speeds), ("pack", f"{manual}.spindlef.stop")),
+                 (speeds, ("pack", f"{manual}.spindlef.spindleminus")),
+                 (speeds, ("pack", f"{manual}.spindlef.spindleplus")),
+                 (speeds, ("grid", ".pane.top.spinoverride")),
+                 ((f, r, on, brake, *speeds), ("grid", f"{manual}.spindlef")),
                  ((f, r, on, brake, *speeds), ("grid", f"{manual}.spindlel")), ((mist,), ("grid", f"{manual}.mist")),
                  ((flood,), ("grid", f"{manual}.flood")), ((mist, flood), ("grid", f"{manual}.coolant")),
                  (tuple(n for n in has if n.endswith("-lim-sw-in")), ("pack", f"{manual}.jogf.override")))
@@ -77,7 +82,8 @@ class PinsPart:
                 self.root.tk.call(manager, "forget" if manager == "pack" else "remove", path)
 
     def watched_pins(self):
-        names = ["spindle.0." + n for n in ("brake", "forward", "reverse", "on", "speed-out", "speed-out-abs", "speed-out-rps",
+        names = ["spindle.0." + n
+                 for n in ("brake", "forward", "reverse", "on", "speed-out", "speed-out-abs", "speed-out-rps",
                                             "speed-out-rps-abs")]
         names += ["iocontrol.0.coolant-mist", "iocontrol.0.coolant-flood"]
         return names + [f"joint.{j}.{side}-lim-sw-in" for j in range(self.settings.joints) for side in ("neg", "pos")]
@@ -85,7 +91,8 @@ class PinsPart:
     def look_at_pins(self):
         if self.comp is None:
             return
-        for name, kind in (("notifications-clear", None), ("notifications-clear-info", "info"), ("notifications-clear-error", "error")):
+        for name, kind in (("notifications-clear", None), ("notifications-clear-info", "info"),
+                           ("notifications-clear-error", "error")):
             value = bool(self.comp[name])
             if value and not self.seen_pins.get(name):
                 self.notifications.clear(kind)

@@ -16,7 +16,8 @@ MAX_RECENT = 10
 class Preferences:
     """Values by name; a missing one is written with its default when first asked for.
 
-    A damaged file is kept as .axis_preferences.bad, and what .axis_preferences.bak keeps is taken; `damaged` says so then, else None.
+    A damaged file is kept as .axis_preferences.bad, and what .axis_preferences.bak keeps is taken; `damaged` says so
+    then, else None.
     """
 
     def __init__(self, path=None):

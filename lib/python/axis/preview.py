@@ -17,7 +17,8 @@ class Preview(Composer, tk.Frame):
     """options: an object with the screen's variables; logger: linuxcnc.positionlogger; text_px: height of letters."""
 
     def __init__(self, parent, settings, options, logger, text_px=13):
-        tk.Frame.__init__(self, parent, class_="Togl", background="#000000", width=300, height=200, borderwidth=0)   # X resources: *Togl.NAME
+        # X resources: *Togl.NAME
+        tk.Frame.__init__(self, parent, class_="Togl", background="#000000", width=300, height=200, borderwidth=0)
         Composer.__init__(self, settings, options, logger, text_px)
         self.read_resources()
         self.scene.back = rgb(self.colours["back"])
@@ -59,7 +60,8 @@ class Preview(Composer, tk.Frame):
                     print(f"axis: *Togl.{name}: {given} is no colour")
         for name in self.alpha:
             try:
-                self.alpha[name] = min(1.0, max(0.0, float(self.option_get(name, name.capitalize()) or self.alpha[name])))
+                self.alpha[name] = min(1.0,
+                                       max(0.0, float(self.option_get(name, name.capitalize()) or self.alpha[name])))
             except ValueError:
                 print(f"axis: *Togl.{name} is no number")
         self.logger.set_colors(*plot_colours(self.colours, self.alpha))
@@ -142,7 +144,8 @@ class Preview(Composer, tk.Frame):
 
     def centre_on_line(self, line):
         """Moves the centre of the view to the mean of the ends of what a source line draws."""
-        ends = [d.vertices[v, i] for d in self.drawings for first, last in d.spans(line) for v in (first, last - 1) for i in range(3)]
+        ends = [d.vertices[v, i] for d in self.drawings for first, last in d.spans(line) for v in (first, last - 1)
+                for i in range(3)]
         if ends:
             self.camera.centre = [sum(ends[i::3]) / (len(ends) // 3) for i in range(3)]
             self.view_changed()

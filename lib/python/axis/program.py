@@ -17,7 +17,8 @@ from .settings import LETTERS, MM_PER_INCH
 PROGRESS = re.compile(r"FILTER_PROGRESS=(\d+)$")
 
 
-# active G codes that change the path of a program which does not set them itself: plane, units, distances, diameters, return of cycles
+# active G codes that change the path of a program which does not set them itself: plane, units, distances, diameters,
+# return of cycles
 PATH_CODES = {170, 171, 180, 181, 190, 191, 200, 210, 900, 901, 910, 911, 70, 80, 980, 990}
 
 
@@ -29,7 +30,8 @@ class FilterFailed(Exception):
     """A filter ended with an error. `program`, `status`, `text`: what it printed."""
 
     def __init__(self, program, status, text):
-        super().__init__(f"The program '{program}' exited with code {status}.  Any error messages it produced are shown below:")
+        super().__init__(f"The program '{program}' exited with code {status}.  Any error messages it "
+                         "produced are shown below:")
         self.program, self.status, self.text = program, status, text
 
 
@@ -77,7 +79,8 @@ class Loader:
             names = extensions.split(",")
             types.append((description.strip() or extensions, names))
             every += names
-        return [(translate("All machinable files"), every), (translate("rs274ngc files"), [".ngc"]), *types, (translate("All files"), "*")]
+        return [(translate("All machinable files"), every), (translate("rs274ngc files"), [".ngc"]), *types,
+                (translate("All files"), "*")]
 
     def filtered(self, path, progress=lambda percent: None):
         """Path of the G-code that a filter makes of a file. Raises FilterFailed."""
@@ -99,10 +102,12 @@ class Loader:
         return target
 
     def run(self, command, target, said):
-        """Runs a shell command whose output becomes the file `target`; said(line) gets its messages. Returns the exit status."""
+        """Runs a shell command whose output becomes the file `target`; said(line) gets its
+        messages. Returns the exit status."""
         with open(target, "wb") as out:
-            child = subprocess.Popen([sys.executable, process.__file__, str(os.getpid()), "sh", "-c", command], stdin=subprocess.DEVNULL, stdout=out,
-                                     stderr=subprocess.PIPE, text=True, errors="replace", env=os.environ | {"AXIS_PROGRESS_BAR": "1"})
+            child = subprocess.Popen([sys.executable, process.__file__, str(os.getpid()), "sh", "-c", command],
+                                     stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE, text=True,
+                                     errors="replace", env=os.environ | {"AXIS_PROGRESS_BAR": "1"})
             self.command = child
             for line in child.stderr:
                 said(line)
@@ -176,14 +181,16 @@ class Loader:
     def conditions(self, path, stat, block_delete):
         """What the path depends on, but for where the machine stands."""
         codes = [code for code in self.init_codes(stat) if not code.startswith("g53 ")]
-        return path, codes, block_delete, tuple(stat.g5x_offset), tuple(stat.g92_offset), stat.rotation_xy, stat.g5x_index
+        return (path, codes, block_delete, tuple(stat.g5x_offset), tuple(stat.g92_offset), stat.rotation_xy,
+                stat.g5x_index)
 
     def read(self, path, stat, block_delete, places, seconds):
         """A Reading of the file as the machine would run it now; places, seconds: as for Reading."""
-        arguments = dict(filename=path, parameter_file=self.own_parameters("preview.var"), initcodes=self.init_codes(stat), tools=[tuple(t)[:14] for t in stat.tool_table],
+        arguments = dict(filename=path, parameter_file=self.own_parameters("preview.var"),
+                         initcodes=self.init_codes(stat), tools=[tuple(t)[:14] for t in stat.tool_table],
                          axis_mask=self.s.axis_mask, linear_units=self.s.units_per_mm, ini=self.s.ini_path,
-                         arc_division=int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64)), block_delete=block_delete,
-                         interpreter=self.s.find("TASK", "INTERPRETER") or "")
+                         arc_division=int(self.s.real(("DISPLAY", "ARCDIVISION"), default=64)),
+                         block_delete=block_delete, interpreter=self.s.find("TASK", "INTERPRETER") or "")
         self.reading = Reading(arguments, self.max_feed(), places, seconds, self.megabytes)
         return self.reading
 
@@ -210,7 +217,8 @@ def beyond(program, settings, stat, axis):
         return False, False
     scale, limits = MM_PER_INCH * settings.units_per_mm, stat.axis[axis]
     low, high = program.extents_tool
-    return low[axis] * scale < limits["min_position_limit"] - 1e-6, high[axis] * scale > limits["max_position_limit"] + 1e-6
+    return (low[axis] * scale < limits["min_position_limit"] - 1e-6,
+            high[axis] * scale > limits["max_position_limit"] + 1e-6)
 
 
 def limit_warnings(program, settings, stat, translate=str):
@@ -225,12 +233,14 @@ def limit_warnings(program, settings, stat, translate=str):
         if above:
             warnings.append(translate("Program exceeds machine maximum on axis %s") % letter)
     if program.aborted:
-        warnings.append(translate("G-code preview was truncated before completion; machine limits could not be fully checked."))
+        warnings.append(translate("G-code preview was truncated before completion; machine limits could not "
+                                  "be fully checked."))
     return warnings
 
 
 def properties(path, source, program, settings, metric, translate=str, run_time=None, kept=None):
-    """(name, value) lines of the properties dialog. run_time: seconds that the planner needs, None: not known yet. kept: the copy that is loaded."""
+    """(name, value) lines of the properties dialog. run_time: seconds that the planner needs, None: not known yet.
+    kept: the copy that is loaded."""
     if path is None:
         return [(translate("Name"), translate("No file loaded"))]
     kept = kept or path
@@ -248,11 +258,15 @@ def properties(path, source, program, settings, metric, translate=str, run_time=
     def length(inches):
         return f"{fmt % (inches * scale)} {unit}"
     seconds = program.seconds if run_time is None else run_time
-    rows += [(translate("Rapid distance"), length(program.rapid_length)), (translate("Feed distance"), length(program.cutting_length)),
-             (translate("Run time"), translate("%.1f minutes") % (seconds / 60) if seconds > 120 else translate("%d seconds") % seconds),
+    rows += [(translate("Rapid distance"), length(program.rapid_length)),
+             (translate("Feed distance"), length(program.cutting_length)),
+             (translate("Run time"), translate("%.1f minutes") % (seconds / 60) if seconds > 120
+              else translate("%d seconds") % seconds),
              (translate("Tool Change List"), " ".join(str(tool) for _, tool in program.tools))]
     if program.n_moves:
         low, high = program.extents
-        rows += [(translate("%s bounds") % c, translate("%s to %s = %s") % (fmt % (low[i] * scale), fmt % (high[i] * scale), length(high[i] - low[i])))
+        rows += [(translate("%s bounds") % c,
+                  translate("%s to %s = %s")
+                  % (fmt % (low[i] * scale), fmt % (high[i] * scale), length(high[i] - low[i])))
                  for i, c in enumerate("XYZ") if low[i] != high[i]]
     return rows

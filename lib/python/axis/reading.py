@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Programs are read for the preview and the limits by a process of its own (FP-136): the screen answers whatever a program, a
-remap or an interpreter does, and goes on when that process crashes or gets no more memory.
+"""Programs are read for the preview and the limits by a process of its own (FP-136): the screen answers whatever a
+program, a remap or an interpreter does, and goes on when that process crashes or gets no more memory.
 
-Reading is the screen's end of it, main() the process. What is drawn comes back in files in memory (kerf_raster.Drawing.mapped), all
-else as one Program. No widgets here. Inches, degrees, inches a minute, seconds.
+Reading is the screen's end of it, main() the process. What is drawn comes back in files in memory
+(kerf_raster.Drawing.mapped), all else as one Program. No widgets here. Inches, degrees, inches a minute, seconds.
 """
 
 import contextlib
@@ -47,31 +47,39 @@ class Program:
     notify: int = 0
     notify_message: str = ""
     seconds: float = 0.0         # lengths by feeds, and dwells
-    mark_places: tuple = (b"", b"")  # of dwells, of user M codes: rows of four float32, x y z and plane (0 XY, 1 XZ, 2 YZ)
+    # of dwells, of user M codes: rows of four float32, x y z and plane (0 XY, 1 XZ, 2 YZ)
+    mark_places: tuple = (b"", b"")
     late: bool = False           # aborted because its time was over
     failed: str = ""             # why the process ended without an answer
 
     @classmethod
     def of(cls, loaded, max_feed):
         """From a gcode.Program; max_feed: inches a minute, of rapids too."""
-        same = {f.name: getattr(loaded, f.name) for f in fields(cls) if hasattr(loaded, f.name) and f.name != "mark_places"}
-        return cls(**same, seconds=loaded.run_time(max_feed, max_feed), mark_places=(loaded.mark_places(False), loaded.mark_places(True)))
+        same = {f.name: getattr(loaded, f.name)
+                for f in fields(cls) if hasattr(loaded, f.name) and f.name != "mark_places"}
+        return cls(**same, seconds=loaded.run_time(max_feed, max_feed),
+                   mark_places=(loaded.mark_places(False), loaded.mark_places(True)))
 
 
 def drawing(loaded, plane, z, geometry, offset, coordinates):
-    """What is drawn of a gcode.Program. plane: -1 space, 0 and 1 those of a foam cutter, at height z where the program gives none."""
+    """What is drawn of a gcode.Program. plane: -1 space, 0 and 1 those of a foam cutter, at height z where the program
+    gives none."""
     import kerf_raster
     given = (loaded.foam_z, loaded.foam_w)[plane] if plane >= 0 else None
-    return kerf_raster.Drawing(loaded.points, loaded.kinds, loaded.lines, geometry, offset, coordinates, plane, z if given is None else given)
+    return kerf_raster.Drawing(loaded.points, loaded.kinds, loaded.lines, geometry, offset, coordinates, plane,
+                               z if given is None else given)
 
 
 class Reading:
-    """One reading. Made and stopped by the main thread (with which the process ends), result() may wait in another one."""
+    """One reading. Made and stopped by the main thread (with which the process ends), result()
+    may wait in another one."""
 
     def __init__(self, arguments, max_feed, places, seconds, megabytes):
-        """arguments: of gcode.load(); places: arguments of drawing() for each drawing, none: only the extents are of interest."""
+        """arguments: of gcode.load(); places: arguments of drawing() for each drawing, none:
+        only the extents are of interest."""
         self.files = [os.memfd_create("axis-drawing") for _ in places]
-        self.megabytes, self.end, self.stopped, self.killed = megabytes, time.monotonic() + seconds + GRACE_S, None, False
+        self.megabytes, self.end, self.stopped, self.killed = (megabytes, time.monotonic() + seconds + GRACE_S,
+                                                               None, False)
         wanted = os.memfd_create("axis-wanted")
         with open(wanted, "wb", closefd=False) as f:
             pickle.dump((arguments, max_feed, list(places), self.files, seconds, megabytes), f)
@@ -100,7 +108,8 @@ class Reading:
             os.killpg(self.child.pid, signal.SIGKILL)        # what a remap in Python started
         status = self.child.wait()
         if program is None:
-            program = Program(late=self.killed and self.stopped is None, failed="" if self.killed else f"signal {-status}" if status < 0 else f"status {status}")
+            program = Program(late=self.killed and self.stopped is None,
+                              failed="" if self.killed else f"signal {-status}" if status < 0 else f"status {status}")
         elif not program.failed:
             drawings = [kerf_raster.Drawing.mapped(fd) for fd in self.files]
         for fd in self.files:
@@ -163,7 +172,8 @@ def read(arguments, max_feed, places, files, seconds, tell):
         nonlocal late
         late = time.monotonic() > end
         return late or tell(line)
-    loaded = gcode.load(**arguments, progress=progress, max_vertices=MOST_VERTICES, keep_path=bool(places), hal_component="preview")
+    loaded = gcode.load(**arguments, progress=progress, max_vertices=MOST_VERTICES, keep_path=bool(places),
+                        hal_component="preview")
     for place, fd in zip(places, files):
         drawing(loaded, *place).write(fd)
     program = Program.of(loaded, max_feed)

@@ -11,12 +11,13 @@ def serve(root, screen, running):
     clear_live_plot() and quit(), of which load and reload may return BUSY; running() is true while a program runs."""
     for entry in ("gdm", "root"):  # Tk takes commands of others only when xauth alone guards the display
         try:
-            subprocess.run(["xhost", f"-SI:localuser:{entry}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=5)
+            subprocess.run(["xhost", f"-SI:localuser:{entry}"], stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, timeout=5)
         except (OSError, subprocess.TimeoutExpired):
             break
     root.tk.call("tk", "appname", "axis")
-    verbs = {"open_file_name": screen.load, "reload_file": screen.reload, "send_mdi_command": screen.send_mdi, "clear_live_plot": screen.clear_live_plot,
-             "destroy": lambda: root.after_idle(screen.quit)}
+    verbs = {"open_file_name": screen.load, "reload_file": screen.reload, "send_mdi_command": screen.send_mdi,
+             "clear_live_plot": screen.clear_live_plot, "destroy": lambda: root.after_idle(screen.quit)}
 
     def remote(verb="", *arguments):
         if verb not in verbs:

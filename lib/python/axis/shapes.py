@@ -88,7 +88,8 @@ def cylinder_faces(bottom, radius, height):
     """Triangles of a cylinder's side and bottom."""
     low = circle(bottom, radius, (1, 0, 0), (0, 1, 0))
     high = circle((bottom[0], bottom[1], bottom[2] + height), radius, (1, 0, 0), (0, 1, 0))
-    return np.array([p for a, b, c, d in zip(low, low[1:], high, high[1:]) for p in (a, b, c, c, b, d, bottom, a, b)], np.float32)
+    return np.array([p for a, b, c, d in zip(low, low[1:], high, high[1:]) for p in (a, b, c, c, b, d, bottom, a, b)],
+                    np.float32)
 
 
 def crosses(places, half=0.0078125):
@@ -107,7 +108,8 @@ def turned(points, degrees, about):
     if degrees:
         t = math.radians(degrees)
         x, y = points[:, 0] - about[0], points[:, 1] - about[1]
-        points[:, 0], points[:, 1] = x * math.cos(t) - y * math.sin(t) + about[0], x * math.sin(t) + y * math.cos(t) + about[1]
+        points[:, 0], points[:, 1] = (x * math.cos(t) - y * math.sin(t) + about[0],
+                                      x * math.sin(t) + y * math.cos(t) + about[1])
     return points
 
 
@@ -121,7 +123,8 @@ def tilted(points, at, letter, degrees):
         i, j = PLANES[letter]
         t = math.radians(degrees)
         a, b = points[:, i] - at[i], points[:, j] - at[j]
-        points[:, i], points[:, j] = a * math.cos(t) - b * math.sin(t) + at[i], a * math.sin(t) + b * math.cos(t) + at[j]
+        points[:, i], points[:, j] = (a * math.cos(t) - b * math.sin(t) + at[i],
+                                      a * math.sin(t) + b * math.cos(t) + at[j])
     return points
 
 
@@ -143,7 +146,8 @@ def placed(nine, geometry, coordinates, offset):
             degrees = sign * (nine[n] - offset[n])
             i, j = PLANES[c]
             t = math.radians(degrees)
-            point[i], point[j] = point[i] * math.cos(t) - point[j] * math.sin(t), point[i] * math.sin(t) + point[j] * math.cos(t)
+            point[i], point[j] = (point[i] * math.cos(t) - point[j] * math.sin(t),
+                                  point[i] * math.sin(t) + point[j] * math.cos(t))
             tilt.append((c, degrees))
         sign = 1.0
     if turns:
@@ -171,7 +175,8 @@ def lathe_tool(position, diameter, front, back, orientation):
     if orientation == 9:
         return runs(circle((cx, cy, cz), r, (1, 0, 0), (0, 0, 1)))
     low, high = math.radians(-90 + min(front, back)), math.radians(-270 + max(front, back))
-    arc = [(cx - r * math.sin(low + (high - low) * k / 36), cy, cz + r * math.cos(low + (high - low) * k / 36)) for k in range(37)]
+    arc = [(cx - r * math.sin(low + (high - low) * k / 36), cy, cz + r * math.cos(low + (high - low) * k / 36))
+           for k in range(37)]
     length = max(0.375, 3 * r)
 
     def side(end, angle):
@@ -208,5 +213,6 @@ def dimension(low, high, axis, plane_axis, metric, zero=0.0):
         text = ("%.1f" if metric else "%.2f") % (value * scale)
         return text[1:] if text.strip("-0.") == "" and text[0] == "-" else text
     middle = [(p + q) / 2 for p, q in zip(a, b)]
-    labels = [(tuple(a), form(low[axis] - zero)), (tuple(b), form(high[axis] - zero)), (tuple(middle), form(high[axis] - low[axis]))]
+    labels = [(tuple(a), form(low[axis] - zero)), (tuple(b), form(high[axis] - zero)),
+              (tuple(middle), form(high[axis] - low[axis]))]
     return (*runs((tuple(a), tuple(b)), *ticks), labels)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A screen that comes after one that crashed, while the machine goes on: what it shows and what it gives back to HAL.
 
-It sets nothing of the machine: modes, overrides, options, the program. Pins of the dead one left HAL with their links; the links
-come back, POSTGUI files do not run again. Signals of bits fell when the pins went and stay so; numbers stay, and the widgets
-of panels begin with them.
+It sets nothing of the machine: modes, overrides, options, the program. Pins of the dead one left HAL with their links;
+the links come back, POSTGUI files do not run again. Signals of bits fell when the pins went and stay so; numbers stay,
+and the widgets of panels begin with them.
 """
 
 import os
@@ -16,8 +16,8 @@ import linuxcnc
 from .codeview import line_starts
 
 KEEP_S = 2.0             # of wall time between two looks at what is to be kept
-VARIABLES = ("metric", "coord_type", "display_type", "jog_slider_val", "ajog_slider_val", "jogincrement", "ja_rbutton", "touch_off_system",
-             "rotate_mode", "show_pyvcppanel")
+VARIABLES = ("metric", "coord_type", "display_type", "jog_slider_val", "ajog_slider_val", "jogincrement", "ja_rbutton",
+             "touch_off_system", "rotate_mode", "show_pyvcppanel")
 
 
 class TakeUpPart:
@@ -42,15 +42,18 @@ class TakeUpPart:
             elif pin["dir"] == hal.HAL_IN and pin["value"] and pin["type"] != hal.HAL_PORT:
                 values[name] = pin["value"]      # of setp
         was = self.former or {}
-        self.record.save(links=links, values=values, parts=self.parts(), loaded=self.loaded, writers=self.writers, folder=self.loader.folder,
-                         program=was.get("program") if self.taking_up else self.program_kept(), view=self.preview.camera.view,
+        self.record.save(links=links, values=values, parts=self.parts(), loaded=self.loaded, writers=self.writers,
+                         folder=self.loader.folder,
+                         program=was.get("program") if self.taking_up else self.program_kept(),
+                         view=self.preview.camera.view,
                          variables={name: getattr(self.vars, name).get() for name in VARIABLES})
 
     def program_kept(self):
         if not self.loaded_file or self.loading:
             return (self.record.saved or {}).get("program")
         return {"loaded": self.loaded_file, "shown": self.shown_file, "kept": self.kept, "filtered": self.is_filtered,
-                "disk": self.disk_state and list(self.disk_state), "text": self.loaded_text and list(self.loaded_text), "changed": self.changed_on_disk}
+                "disk": self.disk_state and list(self.disk_state), "text": self.loaded_text and list(self.loaded_text),
+                "changed": self.changed_on_disk}
 
     # -- of the one before -----------------------------------------------------------------
 
@@ -64,7 +67,8 @@ class TakeUpPart:
     def tell_crashes(self, reports):
         _ = self.translate
         if self.former is not None:
-            text = _("The screen was started again: the one before %s. The machine went on meanwhile; look at it before you go on.") % self.record.crash
+            text = _("The screen was started again: the one before %s. The machine went on meanwhile; look at it "
+                     "before you go on.") % self.record.crash
             self.notifications.add("error", text + (f"\n{_('Report:')} {reports.pop()}" if reports else ""))
         for report in reports:
             self.notifications.add("error", _("The screen ended unexpectedly the last time. Report: %s") % report)
@@ -101,8 +105,12 @@ class TakeUpPart:
     def link_again(self):
         failed = []
         if self.comp is not None:
-            failed = [f"{pin} {value}" for pin, value in self.former.get("values", {}).items() if not self.tried(hal.set_p, pin, str(value))]
-            failed += [f"{pin} {signal}" for pin, signal in self.former.get("links", {}).items() if not self.tried(lambda *a: not hal.connect(*a), pin, signal)]
+            failed = [f"{pin} {value}"
+                      for pin, value in self.former.get("values", {}).items()
+                      if not self.tried(hal.set_p, pin, str(value))]
+            failed += [f"{pin} {signal}"
+                       for pin, signal in self.former.get("links", {}).items()
+                       if not self.tried(lambda *a: not hal.connect(*a), pin, signal)]
         if failed:
             self.notifications.add("error", self.translate("Not connected again in HAL: %s") % ", ".join(failed))
         self.show()

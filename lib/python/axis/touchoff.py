@@ -61,7 +61,8 @@ class Checker:
         if NUMBER.fullmatch(text):
             return float(text), None
         with tempfile.NamedTemporaryFile("w", suffix=".ngc", delete=False) as f:
-            f.write(f"G91 G0 Z0\nG1 F100 Z[{text}]\nM2\n")          # no rotation, radius or offset touches the length of this move
+            # no rotation, radius or offset touches the length of this move
+            f.write(f"G91 G0 Z0\nG1 F100 Z[{text}]\nM2\n")
         try:
             result = gcode.load(f.name, self.file, ["G20"], ini=self.settings.ini_path)
         finally:
@@ -69,4 +70,5 @@ class Checker:
         if result.error:
             return None, result.error.splitlines()[0]
         positions, last = memoryview(result.positions), result.n_vertices - 1
-        return math.copysign(result.cutting_length, positions[last, 2] - positions[last - 1, 2] if last > 0 else 0.0), None
+        return (math.copysign(result.cutting_length, positions[last, 2] - positions[last - 1, 2] if last > 0 else 0.0),
+                None)

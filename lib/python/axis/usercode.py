@@ -33,7 +33,8 @@ class UserPart:
         self.user = self.user_names()
         if not os.path.exists(path):
             if given:
-                self.notifications.add("error", f"[DISPLAY]USER_COMMAND_FILE: {self.translate('%s does not exist') % path}")
+                self.notifications.add("error",
+                                       f"[DISPLAY]USER_COMMAND_FILE: {self.translate('%s does not exist') % path}")
             return
         try:
             with open(path) as f:
@@ -42,30 +43,35 @@ class UserPart:
             text = traceback.format_exc()
             print(text, file=sys.stderr)
             dialogs.ask(self.root, self.translate("Error in ~/.axisrc"),
-                        self.translate("The error given below occurred in your ~/.axisrc; AXIS goes on without the rest of it."),
+                        self.translate("The error given below occurred in your ~/.axisrc; AXIS goes on "
+                                       "without the rest of it."),
                         "error", 0, self.translate("OK"), extra=text)
         self.jog_invert = str(self.user.get("jog_invert", "")).upper()       # may be set there
         self.jog_order = [c for c in str(self.user.get("jog_order", "")).upper() if c in self.settings.axes]
 
     def user_names(self):
         """What the user's code finds in its globals."""
-        names = dict(root_window=self.root, widgets=self.widgets, vars=self.vars, commands=self.commands, TclCommands=self.TclCommands,
-                     inifile=self.ini, s=self.stat, c=self.command, e=self.errors, o=self.preview, t=self.text, comp=self.comp, hal=hal,
+        names = dict(root_window=self.root, widgets=self.widgets, vars=self.vars, commands=self.commands,
+                     TclCommands=self.TclCommands, inifile=self.ini, s=self.stat, c=self.command, e=self.errors,
+                     o=self.preview, t=self.text, comp=self.comp, hal=hal,
                      linuxcnc=linuxcnc, live_plotter=SimpleNamespace(logger=self.logger, clear=self.preview.clear_plot),
                      notifications=self.notifications, ap=self.prefs, help1=help_texts.help1, help2=help_texts.help2,
-                     trajcoordinates=self.settings.coordinates.lower(), num_joints=self.settings.joints, lathe=int(self.settings.lathe),
-                     foam=int(self.settings.foam), jog_order="".join(self.jog_order), jog_invert=self.jog_invert,
-                     loaded_file=self.loaded_file, current_tool=None, set_feedrate=lambda n: self.set_override("feedrate", int(n)),
+                     trajcoordinates=self.settings.coordinates.lower(), num_joints=self.settings.joints,
+                     lathe=int(self.settings.lathe), foam=int(self.settings.foam), jog_order="".join(self.jog_order),
+                     jog_invert=self.jog_invert, loaded_file=self.loaded_file, current_tool=None,
+                     set_feedrate=lambda n: self.set_override("feedrate", int(n)),
                      set_rapidrate=lambda n: self.set_override("rapidrate", int(n)), get_jog_speed=self.get_jog_speed,
                      jog_on=self.jog_on, jog_off=self.jog_off, running=self.running, manual_ok=self.manual_ok,
-                     ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, prompt_touchoff=self.prompt_touchoff, all_homed=self.all_homed, go_home=self.go_home,
-                     set_motion_teleop=self.set_motion_teleop, activate_ja_widget=self.activate_ja_widget,
-                     open_file_guts=self.open_file_guts, reload_file=self.reload_file, rClicker=self.right_click_menu,
+                     ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, prompt_touchoff=self.prompt_touchoff,
+                     all_homed=self.all_homed, go_home=self.go_home, set_motion_teleop=self.set_motion_teleop,
+                     activate_ja_widget=self.activate_ja_widget, open_file_guts=self.open_file_guts,
+                     reload_file=self.reload_file, rClicker=self.right_click_menu,
                      user_live_update=lambda: None, user_hal_pins=lambda: None, tabs_mdi=".pane.top.tabs.fmdi",
                      tabs_manual=".pane.top.tabs.fmanual", tabs_preview=".pane.top.right.fpreview",
-                     tabs_numbers=".pane.top.right.fnumbers", pane_top=".pane.top", pane_bottom=".pane.bottom", _=self.translate,
-                     nf_dialog=self.nf_dialog, tk=tk, Tkinter=tk, tkinter=tk)
-        names |= {module.__name__: module for module in (glob, math, os, re, shutil, string, subprocess, sys, time, traceback)}
+                     tabs_numbers=".pane.top.right.fnumbers", pane_top=".pane.top", pane_bottom=".pane.bottom",
+                     _=self.translate, nf_dialog=self.nf_dialog, tk=tk, Tkinter=tk, tkinter=tk)
+        names |= {module.__name__: module
+                  for module in (glob, math, os, re, shutil, string, subprocess, sys, time, traceback)}
         names["__name__"] = "axis"
         return names
 
@@ -73,7 +79,8 @@ class UserPart:
         return self.jogger.speed_of(int(number), self.jogger.joint_mode())
 
     def jog_on(self, number, speed_now):
-        """Jogs a letter or a number, which is that of a joint or of an axis as the mode has it; machine units a second."""
+        """Jogs a letter or a number, which is that of a joint or of an axis as the mode has
+        it; machine units a second."""
         if isinstance(number, str) and not number.isdigit():
             name = number
         else:
@@ -96,14 +103,16 @@ class UserPart:
 
     def prompt_float(self, title, text, default, unit):
         """(value, None) or (None, None) when cancelled."""
-        dialog = dialogs.Touchoff(self.root, title, text, default, unit, Checker(self.settings, self.loader.own_parameters("prompt.var")))
+        dialog = dialogs.Touchoff(self.root, title, text, default, unit,
+                                  Checker(self.settings, self.loader.own_parameters("prompt.var")))
         answer = dialog.wait(dialog.entry)
         return (float(dialog.check(answer[0])[0]), None) if answer else (None, None)
 
     def prompt_touchoff(self, title, text, default, tool_only=False, system=None):
         """(text as typed, system) or (None, None) when cancelled."""
         checker = Checker(self.settings, self.loader.own_parameters("prompt.var"))
-        dialog = dialogs.Touchoff(self.root, title, text, default, "", checker, None if tool_only else system or self.vars.touch_off_system.get(),
+        dialog = dialogs.Touchoff(self.root, title, text, default, "", checker,
+                                  None if tool_only else system or self.vars.touch_off_system.get(),
                                   translate=self.translate)
         return dialog.wait(dialog.entry) or (None, None)
 

@@ -19,13 +19,15 @@ class Waits:
         self.prefs, self.machine, self.pin = prefs, os.path.realpath(machine), pin
         known = prefs.getpref("waits", {}, repr)
         known = known.get(self.machine) if isinstance(known, dict) else None
-        self.values = {k: float(v) for k, v in known.items() if k in KINDS and isinstance(v, (int, float)) and v >= 0} if isinstance(known, dict) else {}
+        self.values = ({k: float(v) for k, v in known.items() if k in KINDS and isinstance(v, (int, float)) and v >= 0}
+                       if isinstance(known, dict) else {})
         self.began = dict.fromkeys(KINDS)    # when a wait began that is under way
         self.speed, self.change = None, 0.0
 
     def words(self):
         """Options of kerf-time."""
-        return ["-t", f"{self.values.get('tool', 0):.6f}", "-a", f"{self.values.get('spindle', 0):.9f}", "-u", f"{self.values.get('user', 0):.6f}"]
+        return ["-t", f"{self.values.get('tool', 0):.6f}", "-a", f"{self.values.get('spindle', 0):.9f}", "-u",
+                f"{self.values.get('user', 0):.6f}"]
 
     def learn(self, kind, value):
         old = self.values.get(kind)
@@ -72,7 +74,8 @@ class Waits:
 
 
 def rows(counted, values, translate=str):
-    """(name, value) lines for the properties: what the run time holds of waits, and what it does not. counted: Times.waits."""
+    """(name, value) lines for the properties: what the run time holds of waits, and what it does not. counted:
+    Times.waits."""
     if not counted:
         return []
     tools, starts, users, inputs, stops = counted
@@ -80,12 +83,14 @@ def rows(counted, values, translate=str):
     unknown = translate("not measured yet, not counted")
     out = []
     if tools:
-        out.append((translate("Tool changes"), f"{tools}, " + (seconds % values["tool"] if "tool" in values else unknown)))
+        out.append((translate("Tool changes"),
+                    f"{tools}, " + (seconds % values["tool"] if "tool" in values else unknown)))
     if starts:
         known = translate("%.1f s for 1000 rpm") % (1000 * values["spindle"]) if "spindle" in values else unknown
         out.append((translate("Spindle starts"), f"{starts}, {known}"))
     if users:
-        out.append((translate("User M codes"), f"{users}, " + (seconds % values["user"] if "user" in values else unknown)))
+        out.append((translate("User M codes"),
+                    f"{users}, " + (seconds % values["user"] if "user" in values else unknown)))
     if inputs:
         out.append((translate("Waits for inputs (M66)"), f"{inputs}, " + translate("not counted")))
     if stops:

@@ -22,8 +22,8 @@ from .settings import LETTERS, MM_PER_INCH, parse_increment
 from .variables import Options
 
 VERBS = {"Home": N_("Home"), "Unhome": N_("Unhome")}
-ALL_OF = {("Home", True): N_("Home All Axes"), ("Home", False): N_("Home All Joints"), ("Unhome", True): N_("Unhome All Axes"),
-          ("Unhome", False): N_("Unhome All Joints")}
+ALL_OF = {("Home", True): N_("Home All Axes"), ("Home", False): N_("Home All Joints"),
+          ("Unhome", True): N_("Unhome All Axes"), ("Unhome", False): N_("Unhome All Joints")}
 CONSTANTS = {name: getattr(linuxcnc, name) for name in (
     "STATE_ESTOP", "STATE_ESTOP_RESET", "STATE_OFF", "STATE_ON", "INTERP_IDLE", "INTERP_READING", "INTERP_PAUSED",
     "INTERP_WAITING", "TRAJ_MODE_FREE", "KINEMATICS_IDENTITY")} | {
@@ -35,18 +35,23 @@ def widget_names():
     """Names of the documented widgets and their Tk paths."""
     manual, mdi = ".pane.top.tabs.fmanual", ".pane.top.tabs.fmdi"
     names = {
-        "help_window": ".keys", "about_window": ".about", "text": ".pane.bottom.t.text", "preview_frame": ".pane.top.right.fpreview",
-        "numbers_text": ".pane.top.right.fnumbers.text", "tabs": ".pane.top.tabs", "right": ".pane.top.right",
-        "mdi_history": f"{mdi}.history", "mdi_command": f"{mdi}.command", "mdi_waiting": f"{mdi}.waiting", "code_text": ".pane.top.gcodes", "axes": f"{manual}.axes",
+        "help_window": ".keys", "about_window": ".about", "text": ".pane.bottom.t.text",
+        "preview_frame": ".pane.top.right.fpreview", "numbers_text": ".pane.top.right.fnumbers.text",
+        "tabs": ".pane.top.tabs", "right": ".pane.top.right",
+        "mdi_history": f"{mdi}.history", "mdi_command": f"{mdi}.command", "mdi_waiting": f"{mdi}.waiting",
+        "code_text": ".pane.top.gcodes", "axes": f"{manual}.axes",
         "joints": f"{manual}.joints", "jogincr": f"{manual}.jogf.jog.jogincr", "override": f"{manual}.jogf.override",
-        "ajogspeed": ".pane.top.ajogspeed", "coolant": f"{manual}.coolant", "flood": f"{manual}.flood", "mist": f"{manual}.mist",
-        "brake": f"{manual}.spindlef.brake", "spindlel": f"{manual}.spindlel", "spindlef": f"{manual}.spindlef",
-        "spindle_ccw": f"{manual}.spindlef.ccw", "spindle_stop": f"{manual}.spindlef.stop", "spindle_cw": f"{manual}.spindlef.cw",
+        "ajogspeed": ".pane.top.ajogspeed", "coolant": f"{manual}.coolant", "flood": f"{manual}.flood",
+        "mist": f"{manual}.mist", "brake": f"{manual}.spindlef.brake", "spindlel": f"{manual}.spindlel",
+        "spindlef": f"{manual}.spindlef", "spindle_ccw": f"{manual}.spindlef.ccw",
+        "spindle_stop": f"{manual}.spindlef.stop", "spindle_cw": f"{manual}.spindlef.cw",
         "spindle_minus": f"{manual}.spindlef.spindleminus", "spindle_plus": f"{manual}.spindlef.spindleplus",
-        "rotate": ".toolbar.rotate", "feedoverride": ".pane.top.feedoverride.foscale", "rapidoverride": ".pane.top.rapidoverride.foscale",
-        "spinoverride": ".pane.top.spinoverride.foscale", "spinoverridef": ".pane.top.spinoverride", "menu_view": ".menu.view",
-        "menu_grid": ".menu.view.grid", "menu_file": ".menu.file", "menu_machine": ".menu.machine",
-        "menu_touchoff": ".menu.machine.touchoff", "homebutton": f"{manual}.jogf.zerohome.home", "homemenu": ".menu.machine.home",
+        "rotate": ".toolbar.rotate", "feedoverride": ".pane.top.feedoverride.foscale",
+        "rapidoverride": ".pane.top.rapidoverride.foscale",
+        "spinoverride": ".pane.top.spinoverride.foscale", "spinoverridef": ".pane.top.spinoverride",
+        "menu_view": ".menu.view", "menu_grid": ".menu.view.grid", "menu_file": ".menu.file",
+        "menu_machine": ".menu.machine", "menu_touchoff": ".menu.machine.touchoff",
+        "homebutton": f"{manual}.jogf.zerohome.home", "homemenu": ".menu.machine.home",
         "unhomemenu": ".menu.machine.unhome"}
     names |= {f"view_{n}": f".toolbar.view_{n}" for n in ("z", "z2", "x", "y", "y2", "p")}
     names |= {f"axis_{c.lower()}": f"{manual}.axes.axis{c.lower()}" for c in LETTERS}
@@ -65,16 +70,19 @@ class WindowPart(LooksPart):
         for name, value in CONSTANTS.items():
             tcl.setvar(name, value)
         tcl.setvar("version", tree.version())
-        for name, path in (("manual", "tabs.fmanual"), ("mdi", "tabs.fmdi"), ("preview", "right.fpreview"), ("numbers", "right.fnumbers")):
+        for name, path in (("manual", "tabs.fmanual"), ("mdi", "tabs.fmdi"), ("preview", "right.fpreview"),
+                           ("numbers", "right.fnumbers")):
             tcl.setvar(f"_tabs_{name}", f".pane.top.{path}")
         tcl.setvar("::axis::tcl_dir", str(tree.tcl))
         tcl.createcommand("_", self.translate)
         tcl.createcommand("::axis::icon", self.icons.get)
         tcl.createcommand("::axis::notify_error", lambda text: self.notifications.add("error", text))
-        for name, function in {"jog_slider": lambda x: self.slider("jog", x), "ajog_slider": lambda x: self.slider("ajog", x),
+        for name, function in {"jog_slider": lambda x: self.slider("jog", x),
+                               "ajog_slider": lambda x: self.slider("ajog", x),
                                "maxvel_slider": lambda x: self.slider("maxvel", x), "raised_manual": self.tab_raised,
                                "raised_mdi": self.tab_raised, "increment_chosen": self.increment_chosen,
-                               "can_undo": lambda: int(self.undo_lines is not None), "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
+                               "can_undo": lambda: int(self.undo_lines is not None),
+                               "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
                                "large_touch_targets": lambda: self.set_touch(self.vars.large_touch_targets.get()),
                                "interface_scale": lambda: self.set_scale(self.vars.interface_scale.get())}.items():
             tcl.createcommand(f"::axis::{name}", self.guarded(function))
@@ -83,14 +91,16 @@ class WindowPart(LooksPart):
         tcl.eval("::axis::build")
         self.widgets = SimpleNamespace()
         for name, path in widget_names().items():
-            setattr(self.widgets, name, root.nametowidget(path) if path in root.children or self.known(path) else self.wrap(path))
+            setattr(self.widgets, name,
+                    root.nametowidget(path) if path in root.children or self.known(path) else self.wrap(path))
         self.text = self.widgets.text
         self.code = CodeView(self.text, self.wrap(".pane.bottom.t.sb"))
         self.notifications = Notifications(root, self.errors_shown, self.style.px(WRAP_PX))
         self.jogger = Jogger(self)
         self.restore()
         self.logger = linuxcnc.positionlogger(linuxcnc.stat(), *plot_colours(COLOURS, ALPHA), s.geometry, s.foam)
-        self.options = Options(self.vars, cone_size=self.cone_size(), cone_scaling=not s.flag("DISPLAY", "DISABLE_CONE_SCALING"),
+        self.options = Options(self.vars, cone_size=self.cone_size(),
+                               cone_scaling=not s.flag("DISPLAY", "DISABLE_CONE_SCALING"),
                                min_tool_diameter=s.real(("DISPLAY", "GCODE_VIEW_TOOL_MIN_DIA"), default=0.0))
         self.preview = Preview(self.widgets.preview_frame, s, self.options, self.logger, self.letters_px())
         self.preview.pack(fill="both", expand=True)
@@ -107,9 +117,9 @@ class WindowPart(LooksPart):
         self.bind_text()
         self.keys = Keys(self)
         root.protocol("WM_DELETE_WINDOW", self.confirm_close)
-        for name in ("task_state", "interp_state", "taskfile", "task_paused", "highlight_line", "task_mode", "motion_mode", "tool",
-                     "spindledir", "on_any_limit", "queued_mdi_commands", "block_delete", "optional_stop", "has_ladder", "has_editor",
-                     "kinematics_type", "max_queued_mdi_commands"):
+        for name in ("task_state", "interp_state", "taskfile", "task_paused", "highlight_line", "task_mode",
+                     "motion_mode", "tool", "spindledir", "on_any_limit", "queued_mdi_commands", "block_delete",
+                     "optional_stop", "has_ladder", "has_editor", "kinematics_type", "max_queued_mdi_commands"):
             getattr(self.vars, name).trace_add("write", self.state_changed)
         self.state_pending = False
         self.state_changed()
@@ -123,8 +133,9 @@ class WindowPart(LooksPart):
 
     def wrap(self, path):
         """A Python object for a widget that Tcl made."""
-        kinds = {"Text": tk.Text, "Button": tk.Button, "Radiobutton": tk.Radiobutton, "Checkbutton": tk.Checkbutton, "Entry": tk.Entry,
-                 "Listbox": tk.Listbox, "Scrollbar": tk.Scrollbar, "Scale": tk.Scale, "Menu": tk.Menu, "Label": tk.Label, "Toplevel": tk.Toplevel,
+        kinds = {"Text": tk.Text, "Button": tk.Button, "Radiobutton": tk.Radiobutton, "Checkbutton": tk.Checkbutton,
+                 "Entry": tk.Entry, "Listbox": tk.Listbox, "Scrollbar": tk.Scrollbar, "Scale": tk.Scale,
+                 "Menu": tk.Menu, "Label": tk.Label, "Toplevel": tk.Toplevel,
                  "TCombobox": tkinter.ttk.Combobox}
         kind = kinds.get(self.root.tk.eval(f"winfo class {path}"), tk.Frame)
         widget = kind.__new__(kind)
@@ -213,7 +224,8 @@ class WindowPart(LooksPart):
             last = int(tcl.call(".menu.view", "index", "end"))
             tcl.call(".menu.view", "delete", last - 2, last)
         if not s.find("DISPLAY", "PYVCP"):
-            tcl.call(".menu.view", "delete", tcl.call("::axis::menu_entry", ".menu.view", self.translate("Show P_yVCP panel")))
+            tcl.call(".menu.view", "delete",
+                     tcl.call("::axis::menu_entry", ".menu.view", self.translate("Show P_yVCP panel")))
         tcl.call("::axis::add_looks_menu", SCALES)
         home = N_("Home All") if s.all_sequences() else \
             N_("Home Axis") if self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY else N_("Home Joint")
@@ -226,7 +238,8 @@ class WindowPart(LooksPart):
         s, _ = self.settings, self.translate
         identity = self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY
         for menu, verb, all_command, one in ((self.widgets.homemenu, "Home", "home_all_joints", "home_joint_number"),
-                                             (self.widgets.unhomemenu, "Unhome", "unhome_all_joints", "unhome_joint_number")):
+                                             (self.widgets.unhomemenu, "Unhome", "unhome_all_joints",
+                                              "unhome_joint_number")):
             if verb == "Unhome" or s.all_sequences():
                 menu.add_command(label=_(ALL_OF[verb, identity]), command=all_command)
             letters = s.trivkins_letters()
@@ -265,7 +278,8 @@ class WindowPart(LooksPart):
         tk.Button(about, text=self.translate("OK"), width=10, command=about.withdraw).pack(pady=8)
         for column, rows in enumerate((help1, help2)):
             for row, (key, text) in enumerate(rows):
-                tk.Label(keys, text=self.translate(key) if key == SHIFT else key, anchor="e", font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(8, 6))
+                tk.Label(keys, text=self.translate(key) if key == SHIFT else key, anchor="e",
+                         font="AxisBold").grid(row=row, column=2 * column, sticky="e", padx=(8, 6))
                 tk.Label(keys, text=text and self.translate(text), anchor="w").grid(row=row, column=2 * column + 1, sticky="w", padx=(0, 8))
 
     def bind_text(self):
@@ -276,10 +290,12 @@ class WindowPart(LooksPart):
         t.bind("<B1-Motion>", lambda e: "break")
         t.bind("<Button-4>", lambda e: t.yview_scroll(-2, "units") or "break")
         t.bind("<Button-5>", lambda e: t.yview_scroll(2, "units") or "break")
-        self.widgets.numbers_text.bind("<Configure>", lambda e: self.widget_signs.pop("readout", None))      # digits fill the page
+        # digits fill the page
+        self.widgets.numbers_text.bind("<Configure>", lambda e: self.widget_signs.pop("readout", None))
         self.text_menu = tk.Menu(t, tearoff=0)
         self.text_menu.add_command(label=self.translate("Run from here"), command="task_run_line")
-        t.bind("<Button-3>", lambda e: self.vars.highlight_line.get() > 0 and self.text_menu.tk_popup(e.x_root, e.y_root))
+        t.bind("<Button-3>", lambda e: self.vars.highlight_line.get() > 0
+               and self.text_menu.tk_popup(e.x_root, e.y_root))
 
     def cone_size(self):
         size = self.settings.real(("DISPLAY", "CONE_BASESIZE"), default=0.5)

@@ -50,7 +50,8 @@ class Recorder:
         return path
 
     def header(self):
-        return [f"{self.program} {self.version}", time.strftime("%Y-%m-%d %H:%M:%S"), f"configuration {self.ini_path}", f"sha256 {self.config_hash()}", ""]
+        return [f"{self.program} {self.version}", time.strftime("%Y-%m-%d %H:%M:%S"), f"configuration {self.ini_path}",
+                f"sha256 {self.config_hash()}", ""]
 
     # -- crashes of the process ------------------------------------------------------------
 
@@ -93,7 +94,8 @@ class Recorder:
             pass
 
     def fell(self, trace):
-        """The program ends by an exception: its traceback takes the place of the stack in what watch_crashes() keeps."""
+        """The program ends by an exception: its traceback takes the place of the stack in what
+        watch_crashes() keeps."""
         if self.file is not None:
             for text in trace.splitlines():
                 self.add_line(text)
@@ -116,7 +118,8 @@ class Recorder:
 
     def write(self, trace):
         """Path of the report, or None where none can be written."""
-        lines = [*self.header(), trace.rstrip(), "", f"the last {len(self.events)} events:", *(self.line(*e) for e in self.events)]
+        lines = [*self.header(), trace.rstrip(), "", f"the last {len(self.events)} events:",
+                 *(self.line(*e) for e in self.events)]
         path = self.new_report(time.time())
         try:
             self.folder.mkdir(exist_ok=True)

@@ -37,8 +37,9 @@ class Probe:
         self.child = None
         if self.answer == "":
             path = os.pathsep.join(filter(None, sys.path))       # it finds the modules that we find
-            self.child = subprocess.Popen([sys.executable, "-m", "kerf.gl"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                          stderr=subprocess.PIPE, text=True, errors="replace", env=os.environ | {"PYTHONPATH": path})
+            self.child = subprocess.Popen([sys.executable, "-m", "kerf.gl"], stdin=subprocess.DEVNULL,
+                                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                          errors="replace", env=os.environ | {"PYTHONPATH": path})
 
     def result(self):
         """None when it works, else why not. Waits at most PROBE_S."""
@@ -51,7 +52,8 @@ class Probe:
                 self.answer = f"no answer within {PROBE_S:g} s"
             else:
                 status = self.child.returncode
-                self.answer = None if status == 0 else told.splitlines()[-1] if told else f"the driver ended with status {status}"
+                self.answer = (None if status == 0 else told.splitlines()[-1] if told
+                               else f"the driver ended with status {status}")
             self.child = None
         return self.answer
 
@@ -64,7 +66,8 @@ class Frame(tk.Frame):
         self.window = None
 
     def open(self, classic=False):
-        """Makes the context; a classic one has fixed functions and depth. Raises RuntimeError, which says why there is none."""
+        """Makes the context; a classic one has fixed functions and depth. Raises RuntimeError,
+        which says why there is none."""
         import kerf_glx
         self.update_idletasks()
         parent = self.winfo_id()         # made now, if it was not
@@ -89,8 +92,9 @@ class OffScreen:
         self.size = width, height
         self.gl = library("osmesa")
         from OpenGL import arrays, osmesa
-        attributes = arrays.GLintArray.asArray([osmesa.OSMESA_FORMAT, osmesa.OSMESA_RGBA, osmesa.OSMESA_DEPTH_BITS, 24, osmesa.OSMESA_PROFILE,
-                                                osmesa.OSMESA_CORE_PROFILE, osmesa.OSMESA_CONTEXT_MAJOR_VERSION, 3,
+        attributes = arrays.GLintArray.asArray([osmesa.OSMESA_FORMAT, osmesa.OSMESA_RGBA, osmesa.OSMESA_DEPTH_BITS, 24,
+                                                osmesa.OSMESA_PROFILE, osmesa.OSMESA_CORE_PROFILE,
+                                                osmesa.OSMESA_CONTEXT_MAJOR_VERSION, 3,
                                                 osmesa.OSMESA_CONTEXT_MINOR_VERSION, 3, 0])
         self.context = osmesa.OSMesaCreateContextAttribs(attributes, None)
         if not self.context:

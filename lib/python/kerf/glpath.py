@@ -100,7 +100,8 @@ class Renderer:
         self.plain = self.program(PLOT_VERTEX, COLOUR_FRAGMENT)
         self.text = self.program(TEXT_VERTEX, TEXT_FRAGMENT)
         self.places = {(program, name): gl.glGetUniformLocation(program, name)
-                       for program, names in ((self.path, ("m", "palette")), (self.plain, ("m",)), (self.text, ("window", "glyphs")))
+                       for program, names in ((self.path, ("m", "palette")), (self.plain, ("m",)),
+                                              (self.text, ("window", "glyphs")))
                        for name in names}
         self.array = gl.glGenVertexArrays(1)
         gl.glBindVertexArray(self.array)
@@ -138,7 +139,8 @@ class Renderer:
         if name not in self.layers:
             buffer, colour, depth = gl.glGenFramebuffers(1), gl.glGenRenderbuffers(1), gl.glGenRenderbuffers(1)
             gl.glBindFramebuffer(gl.GL_FRAMEBUFFER, buffer)
-            for store, form, place in ((colour, gl.GL_RGBA8, gl.GL_COLOR_ATTACHMENT0), (depth, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_ATTACHMENT)):
+            for store, form, place in ((colour, gl.GL_RGBA8, gl.GL_COLOR_ATTACHMENT0),
+                                       (depth, gl.GL_DEPTH_COMPONENT24, gl.GL_DEPTH_ATTACHMENT)):
                 gl.glBindRenderbuffer(gl.GL_RENDERBUFFER, store)
                 gl.glRenderbufferStorage(gl.GL_RENDERBUFFER, form, *self.size)
                 gl.glFramebufferRenderbuffer(gl.GL_FRAMEBUFFER, place, gl.GL_RENDERBUFFER, store)

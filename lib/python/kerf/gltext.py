@@ -18,7 +18,8 @@ class Glyphs:
         font = imagefont.load(FILE, pixels)
         letters = [chr(c) for c in range(FIRST, LAST + 1)] + [c for c in MORE if imagefont.drawable(font, c) == c]
         boxes = [font.getbbox(c) for c in letters]
-        self.advance = max(1, round(font.getlength("0"))) if hasattr(font, "getlength") else max(1, font.getsize("0")[0])
+        self.advance = (max(1, round(font.getlength("0"))) if hasattr(font, "getlength")
+                        else max(1, font.getsize("0")[0]))
         self.width = max(self.advance, *(b[2] for b in boxes)) + 2
         self.height = max(b[3] for b in boxes) + 2
         self.line = round(1.25 * pixels)

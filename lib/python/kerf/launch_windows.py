@@ -29,7 +29,8 @@ def fitting(root, picture):
     from PIL import Image
     with Image.open(picture) as image:
         data = io.BytesIO()
-        image.convert("RGBA").resize([max(1, round(side * factor)) for side in image.size], Image.LANCZOS).save(data, "PNG")
+        image.convert("RGBA").resize([max(1, round(side * factor)) for side in image.size],
+                                     Image.LANCZOS).save(data, "PNG")
     return tk.PhotoImage(data=data.getvalue())
 
 
@@ -54,26 +55,31 @@ def read(path):
 
 
 def kernel_messages():
-    done = subprocess.run(["dmesg"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    done = subprocess.run(["dmesg"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace", check=False)
     return "\n".join(done.stdout.splitlines()[-200:]) + "\n"
 
 
 class Errors:
-    """Both logs and the kernel's messages, with a button that writes a report to send. died: what of the machine ended."""
+    """Both logs and the kernel's messages, with a button that writes a report to send. died:
+    what of the machine ended."""
 
     def __init__(self, root, died, print_log=None, debug_log=None):
         self.root = root
-        logs = {N_("What the programs reported"): read(debug_log), N_("Steps of the start"): read(print_log)} if print_log else {}
+        logs = ({N_("What the programs reported"): read(debug_log), N_("Steps of the start"): read(print_log)}
+                if print_log else {})
         self.texts = logs | {N_("Kernel messages"): kernel_messages()}
         root.title(died if died else _("LinuxCNC terminated with an error"))
         px = tkstyle.apply(root).px
         tkstyle.centre(root, px(820), px(520), (px(480), px(300)))
         if died:
             ttk.Label(root, padding=px(8), wraplength=px(780), justify="left", font="TkHeadingFont", style="Bad.TLabel",
-                      text=died + "\n" + _("Motion was stopped, the machine was switched off, spindles and coolant too. It must be "
+                      text=died + "\n" + _("Motion was stopped, the machine was switched off, spindles and coolant "
+                                           "too. It must be "
                                            "started and homed again.")).pack(fill="x")
         ttk.Label(root, padding=px(8), wraplength=px(780), justify="left",
-                  text=_("LinuxCNC terminated with an error. The last lines below usually say which program or file, and "
+                  text=_("LinuxCNC terminated with an error. The last lines below usually say which "
+                         "program or file, and "
                        "where in it.")).pack(fill="x")
         buttons = ttk.Frame(root, padding=px(8))
         buttons.pack(side="bottom", fill="x")

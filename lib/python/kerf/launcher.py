@@ -94,8 +94,8 @@ class Options:
                     sys.exit(1)
                 self.hallib_dirs.append(os.path.realpath(value))
             else:
-                name = {"-d": "debug", "-v": "verbose", "-r": "test_mode", "-k": "keep_going", "-l": "last", "-n": "try_only",
-                        "-t": "tpmod", "-m": "homemod", "-D": "display"}[flag]
+                name = {"-d": "debug", "-v": "verbose", "-r": "test_mode", "-k": "keep_going", "-l": "last",
+                        "-n": "try_only", "-t": "tpmod", "-m": "homemod", "-D": "display"}[flag]
                 setattr(self, name, value or True)
         self.ini = rest[0] if rest else None
         self.extra = rest[1:]
@@ -128,7 +128,8 @@ def interpreter_of(program, env):
 
 def ended(returncode):
     """How a program ended, in words."""
-    return f"ended with status {returncode}" if returncode > 0 else f"was ended by signal {-returncode} ({signal.Signals(-returncode).name})"
+    return (f"ended with status {returncode}" if returncode > 0
+            else f"was ended by signal {-returncode} ({signal.Signals(-returncode).name})")
 
 
 def status_of(returncode):
@@ -305,7 +306,8 @@ class Session:
     def update_ini(self):
         version = self.ini.get("EMC", "VERSION") or "0.0"
         if version > "1.1" and version[0].isdigit():    # update_ini leaves those alone
-            print(f"{self.ini_path}: [EMC]VERSION = {version} is newer than 1.1, the newest that is known: started as it is", file=sys.stderr)
+            print(f"{self.ini_path}: [EMC]VERSION = {version} is newer than 1.1, the newest that is "
+                  "known: started as it is", file=sys.stderr)
             return
         if not os.environ.get("DISPLAY"):       # nobody to ask: the backup keeps the old files
             from . import update_ini
@@ -546,7 +548,8 @@ class Session:
 
         def ready():
             if not any(name.startswith("rtapi_app") and lives(pid) for pid, name in self.watched.items()):
-                raise Failure("rtapi_app, the realtime host, died while the machine was started: the kernel's log (dmesg) may name the module")
+                raise Failure("rtapi_app, the realtime host, died while the machine was started: the kernel's log "
+                              "(dmesg) may name the module")
             if not any(name == self.task[:15] and lives(pid) for pid, name in self.watched.items()):
                 raise Failure(f"TASK program {self.task} ended while the machine was started: see its messages above")
             try:
@@ -556,7 +559,8 @@ class Session:
         if not clock.wait_until(ready, READY_WAIT_S):
             print(f"ini.traj_max_velocity still 0.0 after {time.monotonic() - begun:.0f} seconds")
             if not self.output("halcmd", "list", "pin", "motion.motion-enabled"):
-                print(f"{self.ini_path}: no motion module is loaded: a [HAL]HALFILE has to hold `loadrt [EMCMOT]EMCMOT ...`", file=sys.stderr)
+                print(f"{self.ini_path}: no motion module is loaded: a [HAL]HALFILE has to hold `loadrt "
+                      "[EMCMOT]EMCMOT ...`", file=sys.stderr)
 
     def watch(self):
         """Remembers the programs that must not end: without most of them the machine cannot go on."""
@@ -573,18 +577,21 @@ class Session:
                     break
         for line in self.output("halcmd", "-s", "show", "comp").splitlines():
             words = line.split()       # number, kind, name, process, state
-            if len(words) == 5 and words[1] == "User" and words[3].isdigit() and int(words[3]) not in self.watched and lives(int(words[3])):
+            if (len(words) == 5 and words[1] == "User" and words[3].isdigit() and int(words[3]) not in self.watched
+                    and lives(int(words[3]))):
                 self.watched[int(words[3])] = words[2]
                 self.dispensable.add(int(words[3]))
 
     def tell_operator(self, text):
         """In the logs and, by task, at every screen. Does not wait."""
         print(text, file=sys.stderr, flush=True)
-        subprocess.Popen([sys.executable, "-c", "import sys, linuxcnc; linuxcnc.command().error_msg(sys.argv[1])", text], env=self.env,
+        subprocess.Popen([sys.executable, "-c", "import sys, linuxcnc; linuxcnc.command().error_msg(sys.argv[1])",
+                          text], env=self.env,
                          stdin=subprocess.DEVNULL)
 
     def run_display(self):
-        """Starts the screen and waits for its end; one that has crashed comes again while the machine goes on. Returns the last one's status."""
+        """Starts the screen and waits for its end; one that has crashed comes again while the machine goes on. Returns
+        the last one's status."""
         command, crash = self.display_command(), None
         ends, descriptors = select.poll(), {}    # a process descriptor is readable when the process has ended
         for pid in self.watched:
@@ -617,13 +624,15 @@ class Session:
         if crash:
             env[CRASH] = crash
             clock.resume()
-            self.run("halcmd", "-s", "show", "comp", quiet=True)     # whoever uses HAL next takes the pins of the dead away; bits fall
+            # whoever uses HAL next takes the pins of the dead away; bits fall
+            self.run("halcmd", "-s", "show", "comp", quiet=True)
             parts = set(self.restarts.left().get("parts", ()))
             end([p for p in session_processes(self.id, DISPLAY_PART) if p in parts])
         try:
             self.display = clock.spawn(command, "display", env=env)
         except OSError as e:
-            raise Failure(f"Can't execute DISPLAY program {command[0]}: {e.strerror}{interpreter_of(command[0], self.env)}") from None
+            raise Failure(f"Can't execute DISPLAY program {command[0]}: "
+                          f"{e.strerror}{interpreter_of(command[0], self.env)}") from None
         clock.suspend()
 
     def look_at_watched(self, ends, descriptors):
@@ -641,13 +650,17 @@ class Session:
                 ends.unregister(descriptors[pid])
 
     def go_on_without(self, name, crash, status, ends, descriptors):
-        """The screen can not come back. Nobody's work is cut off for that: while a program runs another try is made now and then."""
+        """The screen can not come back. Nobody's work is cut off for that: while a program runs another try is made
+        now and then."""
         if not self.busy():
-            raise Died(f"DISPLAY program {name} crashed {MOST} times within {WITHIN_S:g} s, the last time it {crash}; stopping everything",
+            raise Died(f"DISPLAY program {name} crashed {MOST} times within {WITHIN_S:g} s, the last time it {crash}; "
+                       "stopping everything",
                        status_of(status))
         if len(self.restarts.crashes) == MOST:           # once, not at each try
-            print(f"{name} crashed {MOST} times within {WITHIN_S:g} s. A program runs: it goes on to its end without a screen, "
-                  f"which is tried again every {RETRY_S:g} s. To end the machine, end process {os.getpid()}", file=sys.stderr, flush=True)
+            print(f"{name} crashed {MOST} times within {WITHIN_S:g} s. A program runs: it goes on to its end "
+                  "without a screen, "
+                  f"which is tried again every {RETRY_S:g} s. To end the machine, end process {os.getpid()}",
+                  file=sys.stderr, flush=True)
         until = time.monotonic() + RETRY_S
         while time.monotonic() < until and self.busy():
             self.look_at_watched(ends, descriptors)
@@ -656,7 +669,8 @@ class Session:
     def busy(self):
         """Does a program or an MDI line run, or wait for something?"""
         ask = "import sys, linuxcnc; s = linuxcnc.stat(); s.poll(); sys.exit(s.interp_state == linuxcnc.INTERP_IDLE)"
-        return subprocess.run([sys.executable, "-c", ask], env=self.env, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+        return subprocess.run([sys.executable, "-c", ask], env=self.env, stdin=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL).returncode == 0
 
     def display_command(self):
         program, extra = self.display_program, self.display_args + self.options.extra
@@ -722,7 +736,8 @@ class Session:
         output = subprocess.DEVNULL if quiet else None
         self.trace(command)
         try:
-            subprocess.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=output, stderr=output, timeout=seconds)
+            subprocess.run(list(command), env=self.env, stdin=subprocess.DEVNULL, stdout=output, stderr=output,
+                           timeout=seconds)
         except (subprocess.TimeoutExpired, OSError):
             pass
 
@@ -780,9 +795,9 @@ class Logs:
     def show(self, died, *texts):
         """A window of its own process: the screen is gone."""
         if os.environ.get("DISPLAY") and not self.quiet:
-            subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "errors", died, *texts], stdin=subprocess.DEVNULL,
-                             env=dict(os.environ, PYTHONPATH=str(Tree.find().python)), stdout=subprocess.DEVNULL,
-                             stderr=subprocess.DEVNULL, start_new_session=True)
+            subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "errors", died, *texts],
+                             stdin=subprocess.DEVNULL, env=dict(os.environ, PYTHONPATH=str(Tree.find().python)),
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
 
     def finish(self, status, terminal, died):
         """died: the part of the machine that ended and must not; the operator is told also without logs."""
@@ -902,7 +917,8 @@ def session_main(options, ini_path, tree, guard, told):
 
 
 def guarded(options, ini_path, tree):
-    """Runs the session in a child; cleans up when the child is killed. Returns its status and what died ("": nothing)."""
+    """Runs the session in a child; cleans up when the child is killed. Returns its status and
+    what died ("": nothing)."""
     sys.stdout, sys.stderr = Lossy(sys.stdout), Lossy(sys.stderr)
     hear, tell = os.pipe()
     os.environ[SESSION + "_NEW"] = uuid.uuid4().hex

@@ -10,7 +10,8 @@ def with_point(text):
 
 
 def plain(text):
-    """The text. ValueError for what Python takes for a number and controller and people do not: 1_000, digits of other scripts."""
+    """The text. ValueError for what Python takes for a number and controller and people do
+    not: 1_000, digits of other scripts."""
     if "_" in text or not text.isascii():
         raise ValueError(text)
     return text

@@ -47,7 +47,9 @@ class Picker:
         for folder in self.roots:
             self.fill("", configs.Node(configs.title(folder, tree), folder,
                                        configs.scan(folder, samples=folder == tree.configs)), opened=True)
-        self.select(start or next((p for p in (tree.configs / f"sim/{n}.ini" for n in ("axis/axis", "mill/mill")) if p.exists()), None))
+        self.select(start or next((p
+                                   for p in (tree.configs / f"sim/{n}.ini" for n in ("axis/axis", "mill/mill"))
+                                   if p.exists()), None))
         self.list.bind("<<TreeviewSelect>>", lambda event: self.show())
         for key in ("<Return>", "<KP_Enter>", "<Double-1>"):
             self.list.bind(key, self.accept)
@@ -63,9 +65,10 @@ class Picker:
         size = px(44)
         picture = tk.Canvas(parent, width=size, height=size, highlightthickness=0, background=colours["face"])
         picture.create_rectangle(0, px(14), size, size, fill=colours["select"], width=0)
-        picture.create_line(px(6), px(36), px(18), px(24), px(26), px(32), px(38), px(20), fill=colours["face"], width=px(6), capstyle="round",
-                            joinstyle="round")
-        picture.create_polygon(px(34), px(2), px(42), px(2), px(42), px(14), px(38), px(20), px(34), px(14), fill=colours["ink"])
+        picture.create_line(px(6), px(36), px(18), px(24), px(26), px(32), px(38), px(20), fill=colours["face"],
+                            width=px(6), capstyle="round", joinstyle="round")
+        picture.create_polygon(px(34), px(2), px(42), px(2), px(42), px(14), px(38), px(20), px(34), px(14),
+                               fill=colours["ink"])
         return picture
 
     def make_list(self, panes):
@@ -84,8 +87,8 @@ class Picker:
         panes.add(box, weight=3)
         picture = ttk.Label(box, anchor="center")
         bar = self.bar = ttk.Scrollbar(box)
-        text = tk.Text(box, wrap="word", width=30, height=10, state="disabled", relief="flat", padx=self.style.px(8), pady=self.style.px(8),
-                       font="TkDefaultFont", yscrollcommand=bar.set)
+        text = tk.Text(box, wrap="word", width=30, height=10, state="disabled", relief="flat", padx=self.style.px(8),
+                       pady=self.style.px(8), font="TkDefaultFont", yscrollcommand=bar.set)
         bar.configure(command=text.yview)
         bar.pack(side="right", fill="y")
         text.pack(fill="both", expand=True)
@@ -99,7 +102,8 @@ class Picker:
 
     def select(self, path):
         """Selects a path, or the first file when it is not there."""
-        items = [i for i, p in self.paths.items() if p == path] or [i for i, p in self.paths.items() if configs.usable(p)]
+        items = ([i for i, p in self.paths.items() if p == path]
+                 or [i for i, p in self.paths.items() if configs.usable(p)])
         if items:
             self.list.see(items[0])
             self.list.selection_set(items[0])
@@ -135,7 +139,9 @@ class Picker:
             return None
         try:
             if configs.needs_copy(path, self.tree) and messagebox.askyesno(
-                    _("Copy the configuration"), _("Would you like to copy %s to\n%s?\nYou can change the copy; the original stays as it is.") % (path.stem, configs.user_configs()), parent=self.root):
+                    _("Copy the configuration"),
+                    _("Would you like to copy %s to\n%s?\nYou can change the copy; the original stays as it is.")
+                    % (path.stem, configs.user_configs()), parent=self.root):
                 path = configs.copy(path, self.tree, self.roots)
                 messagebox.showinfo(_("Copied"), _("The configuration is now in\n%s") % path.parent, parent=self.root)
             if self.shortcut.get():

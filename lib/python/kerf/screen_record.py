@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a screen leaves for the one that comes after it has crashed, and how often another one comes. No widgets here.
 
-A screen that can take up a living session keeps a record: a file that the launcher names in the environment. It removes the
-file when it ends as it should; a screen that ended while its record is there has crashed, and the launcher starts it again.
-The new one finds the record, and in the environment how the one before ended.
+A screen that can take up a living session keeps a record: a file that the launcher names in the environment. It
+removes the file when it ends as it should; a screen that ended while its record is there has crashed, and the launcher
+starts it again. The new one finds the record, and in the environment how the one before ended.
 """
 
 import contextlib
@@ -46,7 +46,8 @@ class Record:
         if not self.path or what == self.saved:
             return
         try:
-            with tempfile.NamedTemporaryFile("w", dir=os.path.dirname(self.path), prefix=os.path.basename(self.path), delete=False) as f:
+            with tempfile.NamedTemporaryFile("w", dir=os.path.dirname(self.path), prefix=os.path.basename(self.path),
+                                             delete=False) as f:
                 json.dump(what, f)
             os.replace(f.name, self.path)
             self.saved = what
@@ -69,7 +70,8 @@ class Restarts:
         self.path, self.crashes = path, []
 
     def crashed(self, returncode, pid):
-        """Did the process of the display end so that another one shall come? A script that runs a screen is no screen."""
+        """Did the process of the display end so that another one shall come? A script that
+        runs a screen is no screen."""
         if returncode == 0 or returncode in ON_REQUEST or not os.path.exists(self.path):
             return False
         return bool(self.crashes) or self.left().get("pid") == pid
@@ -81,7 +83,8 @@ class Restarts:
         return len(self.crashes) >= MOST
 
     def left(self):
-        """The record of the screen that crashed: "parts", ids of the processes that show something inside it; "folder", its temporary files."""
+        """The record of the screen that crashed: "parts", ids of the processes that show something inside it;
+        "folder", its temporary files."""
         try:
             with open(self.path) as f:
                 return json.load(f)

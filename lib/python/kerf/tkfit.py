@@ -19,8 +19,9 @@ FIELDS = ("TEntry", "TCombobox", "TSpinbox")
 SCROLLED, FEW_LINES = ("Text", "Listbox", "Treeview", "Canvas"), 4
 
 # Lengths in pixels that widgets were given, by class. Themes and named fonts follow by themselves.
-LENGTHS = {"Canvas": ("width", "height"), "Label": ("wraplength", "padx", "pady"), "TLabel": ("wraplength", "padding"), "TFrame": ("padding",),
-           "TLabelframe": ("padding",), "TScale": ("length",), "Scale": ("length", "width", "sliderlength"), "Button": ("padx", "pady")}
+LENGTHS = {"Canvas": ("width", "height"), "Label": ("wraplength", "padx", "pady"), "TLabel": ("wraplength", "padding"),
+           "TFrame": ("padding",), "TLabelframe": ("padding",), "TScale": ("length",),
+           "Scale": ("length", "width", "sliderlength"), "Button": ("padx", "pady")}
 GAPS = ("padx", "pady", "ipadx", "ipady")
 
 
@@ -33,13 +34,17 @@ def place_of(window):
 def menu_height(window):
     """Pixels of its menu bar as its letters are now."""
     call = window.tk.call
-    menus = [child for child in window.tk.splitlist(call("winfo", "children", window)) if str(call("winfo", "class", child)) == "Menu"]
-    return max((int(call("winfo", "reqheight", menu)) for menu in menus if str(call(menu, "cget", "-type")) == "menubar"), default=0)
+    menus = [child for child in window.tk.splitlist(call("winfo", "children", window))
+             if str(call("winfo", "class", child)) == "Menu"]
+    return max((int(call("winfo", "reqheight", menu))
+                for menu in menus if str(call(menu, "cget", "-type")) == "menubar"), default=0)
 
 
 def room_of(window):
     """Pixels that a window may have: width, height."""
-    return window.winfo_screenwidth(), window.winfo_screenheight() - max(FRAME_PX, window.winfo_rooty() - place_of(window)[1], menu_height(window))
+    return (window.winfo_screenwidth(),
+            window.winfo_screenheight()
+            - max(FRAME_PX, window.winfo_rooty() - place_of(window)[1], menu_height(window)))
 
 
 def asked(window):
@@ -58,7 +63,8 @@ def step_for(share):
 
 def scale_option(widget, option, factor, get, put):
     """A length, or several of them, in pixels."""
-    lengths = [round(float(str(widget.winfo_pixels(str(part)))) * factor) for part in widget.tk.splitlist(str_or_tuple(get(option)))]
+    lengths = [round(float(str(widget.winfo_pixels(str(part)))) * factor)
+               for part in widget.tk.splitlist(str_or_tuple(get(option)))]
     if any(lengths):
         put(**{option: lengths if len(lengths) > 1 else lengths[0]})
 
@@ -120,7 +126,8 @@ class Fit:
 
     def _changes(self, event):
         """Something came into a window that makes it larger than the screen."""
-        if isinstance(event.widget, tk.Wm) and any(size > most for size, most in zip((event.width, event.height), room_of(event.widget))):
+        if (isinstance(event.widget, tk.Wm)
+                and any(size > most for size, most in zip((event.width, event.height), room_of(event.widget)))):
             self._appears(event)
 
     def _look(self, window):
@@ -171,12 +178,14 @@ class Fit:
             for option in LENGTHS.get(kind, ()):
                 scale_option(child, option, factor, child.cget, child.configure)
             if child.winfo_manager() in ("grid", "pack"):
-                info, change = (child.grid_info, child.grid_configure) if child.winfo_manager() == "grid" else (child.pack_info, child.pack_configure)
+                info, change = ((child.grid_info, child.grid_configure) if child.winfo_manager() == "grid"
+                                else (child.pack_info, child.pack_configure))
                 for option in GAPS:
                     scale_option(child, option, factor, info().get, change)
             if kind == "Treeview":
                 for column in ("#0", *child.cget("columns")):
-                    child.column(column, width=round(child.column(column, "width") * factor), minwidth=round(child.column(column, "minwidth") * factor))
+                    child.column(column, width=round(child.column(column, "width") * factor),
+                                 minwidth=round(child.column(column, "minwidth") * factor))
             for column in range(child.grid_size()[0]):
                 least = child.columnconfigure(column)["minsize"]
                 if least:

@@ -24,12 +24,16 @@ from .failures import Recorder
 from .tkfit import Fit
 from .tree import Tree
 
-LIGHT = {"face": "#eceae6", "ink": "#1c1c1a", "field": "#ffffff", "line": "#b8b4ac", "pressed": "#dcd8d0", "select": "#2563a8",
+LIGHT = {"face": "#eceae6", "ink": "#1c1c1a", "field": "#ffffff", "line": "#b8b4ac", "pressed": "#dcd8d0",
+         "select": "#2563a8",
          "faint": "#6a6a66", "off": "#8c8c86", "good": "#18794e", "bad": "#b3261e", "warn": "#ffd75e", "pin": "#1c1c1a",
-         "signal": "#1f45c4", "param": "#6e3400", "true": "#ffe000", "false": "#b22222", "on": "#ff5a4d", "chart": "#2563a8", "heading": "#dcd8d0"}
-DARK = {"face": "#2b2d30", "ink": "#e8e6e3", "field": "#1e1f22", "line": "#55585c", "pressed": "#3d4045", "select": "#3d7dc8",
+         "signal": "#1f45c4", "param": "#6e3400", "true": "#ffe000", "false": "#b22222", "on": "#ff5a4d",
+         "chart": "#2563a8", "heading": "#dcd8d0"}
+DARK = {"face": "#2b2d30", "ink": "#e8e6e3", "field": "#1e1f22", "line": "#55585c", "pressed": "#3d4045",
+        "select": "#3d7dc8",
         "faint": "#a5a5a0", "off": "#7c7c78", "good": "#6cc998", "bad": "#ff8a80", "warn": "#6b5600", "pin": "#e8e6e3",
-        "signal": "#8fb1ff", "param": "#e0a070", "true": "#ffe000", "false": "#b22222", "on": "#d8382c", "chart": "#6ba6e8", "heading": "#3a3d41"}
+        "signal": "#8fb1ff", "param": "#e0a070", "true": "#ffe000", "false": "#b22222", "on": "#d8382c",
+        "chart": "#6ba6e8", "heading": "#3a3d41"}
 NORMAL_PX = 13          # height of letters at a scale of 1, pixels
 SMALL_SCREEN = 700      # pixels: less high screens have smaller letters
 MAX_SCALE = 3.0
@@ -88,7 +92,8 @@ def desktop_dpi():
 
 
 def screen_scale(root):
-    """1 on a usual screen; more where pixels are small: by its resolution, by its size in pixels, or as the desktop is set."""
+    """1 on a usual screen; more where pixels are small: by its resolution, by its size in
+    pixels, or as the desktop is set."""
     try:
         given = float(os.environ.get("KERF_SCALE") or remembered("interface_scale", "getfloat", 0.0))
     except ValueError:
@@ -108,7 +113,9 @@ def style_of(widget):
 def follow(widget, resize):
     """resize() now and whenever the scale changes, as long as the widget is there."""
     root = widget._root()
-    root.kerf_followers = [(w, action) for w, action in getattr(root, "kerf_followers", ()) if w.winfo_exists()] + [(widget, resize)]
+    root.kerf_followers = [(w, action)
+                           for w, action in getattr(root, "kerf_followers", ())
+                           if w.winfo_exists()] + [(widget, resize)]
     resize()
 
 
@@ -123,7 +130,8 @@ def _tell_scale(root, style):
 
 
 def apply(root, dark=None, fits=True, most=MAX_SCALE):
-    """Sets fonts, colours and sizes of all widgets of this program; returns the Style. fits: windows get the room they need. most: scale."""
+    """Sets fonts, colours and sizes of all widgets of this program; returns the Style. fits: windows get the room they
+    need. most: scale."""
     dark = wants_dark() if dark is None else dark
     style = Style(DARK if dark else LIGHT, dark, min(screen_scale(root), most), float(fits and wants_touch()))
 
@@ -148,13 +156,17 @@ def _options(root, colours, style):
     for pattern, value in (("*Font", "TkDefaultFont"), ("*Text.Font", "TkFixedFont"), ("*background", colours["face"]),
                            ("*foreground", colours["ink"]), ("*activeBackground", colours["pressed"]),
                            ("*activeForeground", colours["ink"]), ("*disabledForeground", colours["off"]),
-                           ("*highlightThickness", 0), ("*highlightColor", colours["select"]), ("*highlightBackground", colours["face"]), ("*Entry.background", colours["field"]), ("*Text.background", colours["field"]),
-                           ("*Listbox.background", colours["field"]), ("*Canvas.background", colours["field"]),
-                           ("*selectBackground", colours["select"]), ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
-                           ("*Checkbutton.selectColor", colours["field"]), ("*Radiobutton.selectColor", colours["field"]),
-                           ("*Spinbox.background", colours["field"]), ("*Spinbox.buttonBackground", colours["face"]),
-                           ("*Scale.troughColor", colours["pressed"]), ("*Scale.width", style.roomy(15, 15)),
-                           ("*Scale.sliderLength", style.roomy(30, 15)), ("*Scale.length", style.px(100)), ("*Menu.borderWidth", 1), ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.roomy(2, 5)),
+                           ("*highlightThickness", 0), ("*highlightColor", colours["select"]),
+                           ("*highlightBackground", colours["face"]), ("*Entry.background", colours["field"]),
+                           ("*Text.background", colours["field"]), ("*Listbox.background", colours["field"]),
+                           ("*Canvas.background", colours["field"]), ("*selectBackground", colours["select"]),
+                           ("*selectForeground", "#ffffff"), ("*insertBackground", colours["ink"]),
+                           ("*Checkbutton.selectColor", colours["field"]),
+                           ("*Radiobutton.selectColor", colours["field"]), ("*Spinbox.background", colours["field"]),
+                           ("*Spinbox.buttonBackground", colours["face"]), ("*Scale.troughColor", colours["pressed"]),
+                           ("*Scale.width", style.roomy(15, 15)), ("*Scale.sliderLength", style.roomy(30, 15)),
+                           ("*Scale.length", style.px(100)), ("*Menu.borderWidth", 1),
+                           ("*Menu.selectColor", colours["ink"]), ("*Menu.activeBorderWidth", style.roomy(2, 5)),
                            # Tk's file dialogs have white lists in every theme.
                            ("*TkFDialog*Canvas.foreground", "black"), ("*TkChooseDir*Canvas.foreground", "black"),
                            ("*TCombobox*Listbox.font", "TkDefaultFont")):
@@ -164,8 +176,9 @@ def _options(root, colours, style):
 def _themed(theme, colours, style, letters):
     theme.theme_use("clam")
     line, face = colours["line"], colours["face"]
-    theme.configure(".", background=face, foreground=colours["ink"], fieldbackground=colours["field"], bordercolor=line, lightcolor=face,
-                    darkcolor=face, troughcolor=colours["pressed"], selectbackground=colours["select"], selectforeground="#ffffff",
+    theme.configure(".", background=face, foreground=colours["ink"], fieldbackground=colours["field"], bordercolor=line,
+                    lightcolor=face, darkcolor=face, troughcolor=colours["pressed"], selectbackground=colours["select"],
+                    selectforeground="#ffffff",
                     insertcolor=colours["ink"], focuscolor=colours["select"], font="TkDefaultFont")
     theme.map(".", foreground=[("disabled", colours["off"])])
     theme.configure("TButton", padding=(style.px(10), style.roomy(4, 7)), anchor="center")
@@ -173,12 +186,14 @@ def _themed(theme, colours, style, letters):
     theme.map("TButton", background=[("disabled", face), ("pressed", line), ("active", colours["pressed"])])
     theme.configure("Small.TButton", padding=(style.roomy(4, 4), style.roomy(1, 9)), width=-4)
     for name in ("TCheckbutton", "TRadiobutton"):
-        theme.configure(name, indicatorsize=style.roomy(14, 8), padding=style.roomy(2, 6), indicatorbackground=colours["field"],
-                        indicatorforeground=colours["ink"])
-        theme.map(name, background=[("active", face)], indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
+        theme.configure(name, indicatorsize=style.roomy(14, 8), padding=style.roomy(2, 6),
+                        indicatorbackground=colours["field"], indicatorforeground=colours["ink"])
+        theme.map(name, background=[("active", face)],
+                  indicatorbackground=[("pressed", colours["pressed"]), ("!disabled", colours["field"])])
     theme.configure("TMenubutton", arrowsize=style.px(5), padding=(style.px(6), style.roomy(4, 7)))
     for name in ("Horizontal.TScale", "Vertical.TScale"):
-        theme.configure(name, sliderlength=style.roomy(30, 15), arrowsize=style.roomy(14, 22), background=line, lightcolor=line, darkcolor=line)
+        theme.configure(name, sliderlength=style.roomy(30, 15), arrowsize=style.roomy(14, 22), background=line,
+                        lightcolor=line, darkcolor=line)
         theme.map(name, background=[("disabled", face), ("active", colours["select"])])
     theme.configure("TEntry", padding=(style.px(3), style.roomy(3, 7)))
     theme.map("TEntry", fieldbackground=[("disabled", face), ("readonly", face)])
@@ -186,17 +201,20 @@ def _themed(theme, colours, style, letters):
     theme.map("TCombobox", fieldbackground=[("readonly", colours["field"])], foreground=[("readonly", colours["ink"])],
               selectbackground=[("readonly", colours["field"])], selectforeground=[("readonly", colours["ink"])])
     for name in ("Vertical.TScrollbar", "Horizontal.TScrollbar"):
-        theme.configure(name, arrowsize=style.roomy(14, 10), background=line, lightcolor=line, darkcolor=line, arrowcolor=colours["ink"], gripcount=0)
-        theme.map(name, **{part: [("disabled", face), ("active", colours["off"])] for part in ("background", "lightcolor", "darkcolor")})
-    theme.configure("Treeview", rowheight=round(letters * (1.65 + style.touch)), background=colours["field"], foreground=colours["ink"],
-                    fieldbackground=colours["field"], indent=style.px(18), borderwidth=1)
+        theme.configure(name, arrowsize=style.roomy(14, 10), background=line, lightcolor=line, darkcolor=line,
+                        arrowcolor=colours["ink"], gripcount=0)
+        theme.map(name, **{part: [("disabled", face), ("active", colours["off"])]
+                           for part in ("background", "lightcolor", "darkcolor")})
+    theme.configure("Treeview", rowheight=round(letters * (1.65 + style.touch)), background=colours["field"],
+                    foreground=colours["ink"], fieldbackground=colours["field"], indent=style.px(18), borderwidth=1)
     theme.map("Treeview", background=[("selected", colours["select"])], foreground=[("selected", "#ffffff")])
     theme.configure("Treeview.Heading", background=colours["heading"], padding=style.roomy(3, 6))
     theme.map("Treeview.Heading", background=[("active", colours["pressed"])])
     theme.configure("Treeview.Item", indicatorsize=style.roomy(12, 8))
     theme.configure("TNotebook", tabmargins=(style.px(2), style.px(4), style.px(2), 0))
     theme.configure("TNotebook.Tab", padding=(style.px(10), style.roomy(4, 7)), background=colours["pressed"])
-    theme.map("TNotebook.Tab", background=[("selected", face)], padding=[("selected", (style.px(10), style.roomy(6, 7)))])
+    theme.map("TNotebook.Tab", background=[("selected", face)],
+              padding=[("selected", (style.px(10), style.roomy(6, 7)))])
     theme.configure("TLabelframe", bordercolor=line)
     theme.configure("Value.TLabel", font="TkFixedFont")
     theme.configure("Faint.TLabel", foreground=colours["faint"])
@@ -235,10 +253,12 @@ def open_display(program, class_name):
 
     recorder = Recorder(program, os.environ.get("INI_FILE_NAME", ""), Tree.find().version())
     for event in ("<KeyPress>", "<ButtonPress>"):
-        root.bind_all(event, lambda e: recorder.note(e.type.name, e.keysym if e.keysym != "??" else e.num, e.widget), "+")
+        root.bind_all(event, lambda e: recorder.note(e.type.name, e.keysym if e.keysym != "??" else e.num, e.widget),
+                      "+")
 
     def trouble(kind, value, place):
-        """An interrupt (halcmd unload, Control-C, a closed terminal) ends the program; other errors are told and it goes on."""
+        """An interrupt (halcmd unload, Control-C, a closed terminal) ends the program; other
+        errors are told and it goes on."""
         if kind is KeyboardInterrupt:
             root.at_interrupt()
             return

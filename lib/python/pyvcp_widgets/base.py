@@ -75,7 +75,8 @@ def keep_readable(widget, options):
     if "foreground" not in widget.keys() or (chosen and {"fg", "foreground"} & options.keys()):
         return
     ground = brightness(widget, widget["background"])
-    if (chosen or ground < 0.5 or tkstyle.style_of(widget).dark) and abs(ground - brightness(widget, widget["foreground"])) < LEAST_CONTRAST:
+    if ((chosen or ground < 0.5 or tkstyle.style_of(widget).dark)
+            and abs(ground - brightness(widget, widget["foreground"])) < LEAST_CONTRAST):
         widget.configure(foreground=ink_on(widget, widget["background"]))
 
 
@@ -85,16 +86,17 @@ def known_options(options, names):
 
 
 class Canvas(tk.Canvas):
-    """A drawing on the panel's own ground, in the pixels of a usual screen: it grows with the screen. tint() gives what has the
-    tag ink (letters, lines) or edge (outlines) a colour that can be read on it, also after the theme has changed. `unknown`:
-    options that are not for drawings."""
+    """A drawing on the panel's own ground, in the pixels of a usual screen: it grows with the screen. tint() gives
+    what has the tag ink (letters, lines) or edge (outlines) a colour that can be read on it, also after the theme has
+    changed. `unknown`: options that are not for drawings."""
 
     def __init__(self, master, width, height, options, **defaults):
         super().__init__(master, width=width, height=height, **defaults)
         known, self.unknown = known_options(options, set(self.keys()) - {"width", "height"})
         self.configure(**known)
         self.ground = None
-        if not {"bg", "background"} & options.keys() and self["background"] in (tkstyle.LIGHT["field"], tkstyle.DARK["field"]):
+        if (not {"bg", "background"} & options.keys()
+                and self["background"] in (tkstyle.LIGHT["field"], tkstyle.DARK["field"])):
             self.configure(background=master["background"])
         self.factor, self.usual_size, self.sizes = 1.0, (width, height), {}
         self.after_idle(self.grow)           # when all is drawn

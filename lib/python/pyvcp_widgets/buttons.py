@@ -17,8 +17,9 @@ def give_mark(button, kind, options):
     if style.scale > 1 and not {"indicatoron", "image", "selectimage"} & options.keys():
         from axis.icons import Icons
         icons = button.icons = Icons(button, style.px(ICON_PX), brightness(button, button["background"]) < 0.5)
-        button.configure(indicatoron=0, image=icons.get(f"{kind}_off"), selectimage=icons.get(f"{kind}_on"), compound="left", padx=style.px(4),
-                         borderwidth=0, relief="flat", offrelief="flat", overrelief="flat", selectcolor=button["background"])
+        button.configure(indicatoron=0, image=icons.get(f"{kind}_off"), selectimage=icons.get(f"{kind}_on"),
+                         compound="left", padx=style.px(4), borderwidth=0, relief="flat", offrelief="flat",
+                         overrelief="flat", selectcolor=button["background"])
 
 
 class Disabling:
@@ -89,7 +90,8 @@ class Radiobutton(tk.Frame):
         name = panel.default(halpin, "radiobutton")
         self.choice = tk.IntVar(self, value=int(initval))
         self.pins = [panel.new(f"{name}.{choice}", hal.HAL_BIT, hal.HAL_OUT) for choice in choices]
-        self.buttons = [tk.Radiobutton(self, text=str(choice), variable=self.choice, value=n, anchor="w") for n, choice in enumerate(choices)]
+        self.buttons = [tk.Radiobutton(self, text=str(choice), variable=self.choice, value=n, anchor="w")
+                        for n, choice in enumerate(choices)]
         known, self.unknown = known_options(options, set(self.buttons[0].keys()) - {"text", "variable", "value"})
         for button in self.buttons:
             button.configure(**known)

@@ -35,8 +35,8 @@ def make_param_pin(panel, kind, number, halparam, initval):
 
 
 class Spinbox(tk.Spinbox):
-    def __init__(self, master, panel, halpin=None, min_=0, max_=100, initval=0, resolution=1, format="2.1f", param_pin=0,
-                 halparam=None, **options):
+    def __init__(self, master, panel, halpin=None, min_=0, max_=100, initval=0, resolution=1,
+                 format="2.1f", param_pin=0, halparam=None, **options):
         number = panel.count("spinbox")
         self.low, self.high, self.resolution = float(min_), float(max_), float(resolution)
         self.pattern = "%" + str(format).lstrip("%")
@@ -79,7 +79,8 @@ class Spinbox(tk.Spinbox):
 class Scale(tk.Scale):
     """A slider: KIND-f is its value, KIND-i the whole part."""
 
-    def __init__(self, master, panel, halpin=None, min_=0, max_=10, initval=0, resolution=1, param_pin=0, halparam=None, **options):
+    def __init__(self, master, panel, halpin=None, min_=0, max_=10, initval=0, resolution=1, param_pin=0,
+                 halparam=None, **options):
         number = panel.count("scale")
         name = halpin or f"scale.{number}"
         first = panel.first(name + "-f", panel.first(name + "-i", initval))
@@ -115,7 +116,8 @@ class Wheel(Canvas):
         edge_tags = () if edge or face else ("edge",)
         self.ink_tags = () if face else ("ink",)         # on the panel's ground, which may change
         self.ink = ink_on(self, face) if face else "black"
-        self.create_oval(5, 5, size - 5, size - 5, fill=face, outline=edge or "black", width=2, tags=("face", *edge_tags))
+        self.create_oval(5, 5, size - 5, size - 5, fill=face, outline=edge or "black", width=2,
+                         tags=("face", *edge_tags))
         for n in range(self.cpr if self.cpr <= 120 else 60):
             angle = 2 * math.pi * n / (self.cpr if self.cpr <= 120 else 60)
             self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * 0.94), fill=edge or self.ink,
@@ -130,7 +132,8 @@ class Wheel(Canvas):
 
     def say(self, height, letters, tag="text", text=""):
         """A text in the middle; height: share from the top."""
-        self.write(self.middle, 2 * self.middle * height, max(int(letters), 6), text=text, fill=self.ink, tags=(tag, *self.ink_tags))
+        self.write(self.middle, 2 * self.middle * height, max(int(letters), 6), text=text, fill=self.ink,
+                   tags=(tag, *self.ink_tags))
 
     def at(self, angle, radius):
         """A place; angle from the top, clockwise."""
@@ -173,8 +176,9 @@ class Dial(Wheel):
     back to the first value."""
     NUMBERS = ("min_", "max_")
 
-    def __init__(self, master, panel, halpin=None, halparam=None, size=200, cpr=40, min_=None, max_=None, text=None, initval=0,
-                 resolution=0.1, param_pin=1, dialcolor="", edgecolor="", dotcolor="grey", **options):
+    def __init__(self, master, panel, halpin=None, halparam=None, size=200, cpr=40, min_=None, max_=None,
+                 text=None, initval=0, resolution=0.1, param_pin=1, dialcolor="", edgecolor="",
+                 dotcolor="grey", **options):
         super().__init__(master, size, size, options)
         number = panel.count("dial")
         name = halpin or f"dial.{number}.out"
@@ -215,8 +219,8 @@ class Dial(Wheel):
 class Jogwheel(Wheel):
     """Counts steps; with clear_pin a scaled number is shown, which Shift-click and the pin reset clear."""
 
-    def __init__(self, master, panel, halpin=None, size=200, cpr=40, bgcolor="lightgrey", fillcolor="lightgrey", text=None,
-                 clear_pin=0, scale_pin=0, **options):
+    def __init__(self, master, panel, halpin=None, size=200, cpr=40, bgcolor="lightgrey",
+                 fillcolor="lightgrey", text=None, clear_pin=0, scale_pin=0, **options):
         super().__init__(master, size, size, options)
         base = panel.default(halpin, "jogwheel")
         name = halpin or base + ".count"

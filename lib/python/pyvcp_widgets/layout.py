@@ -71,7 +71,8 @@ class Labelframe(tk.LabelFrame, Container):
 class Table(tk.Frame, Container):
     """Rows are begun by tablerow; cells that a span has taken are skipped."""
 
-    def __init__(self, master, panel, flexible_rows=(), flexible_columns=(), uniform_rows="", uniform_columns="", **options):
+    def __init__(self, master, panel, flexible_rows=(), flexible_columns=(), uniform_rows="",
+                 uniform_columns="", **options):
         super().__init__(master, **options)
         self.row = self.column = 0
         self.span, self.sticky, self.taken = (1, 1), "ne", set()

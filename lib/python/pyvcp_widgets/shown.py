@@ -45,8 +45,8 @@ class Led(Lamp):
 
 
 class Rectled(Lamp):
-    def __init__(self, master, panel, halpin=None, height=10, width=30, on_color="green", off_color="red", disable_pin=False,
-                 disabled_color="gray80", **options):
+    def __init__(self, master, panel, halpin=None, height=10, width=30, on_color="green", off_color="red",
+                 disable_pin=False, disabled_color="gray80", **options):
         super().__init__(master, width, height, options, bd=0, highlightthickness=0)
         self.create_rectangle(1, 1, width - 1, height - 1, tags="lamp")
         self.make(panel, halpin, on_color, off_color, disable_pin, disabled_color)
@@ -121,10 +121,12 @@ class Ranged(Canvas):
 
 
 class Bar(Ranged):
-    """A bar from the left edge, or from 0, with its number. Colours of ranges: (low, high, colour), all three or none."""
+    """A bar from the left edge, or from 0, with its number. Colours of ranges: (low, high,
+    colour), all three or none."""
 
-    def __init__(self, master, panel, halpin=None, min_=0, max_=100, fillcolor="green", bgcolor="grey", range1=None, range2=None,
-                 range3=None, canvas_width=200, canvas_height=50, bar_height=30, bar_width=150, format="3.1f", **options):
+    def __init__(self, master, panel, halpin=None, min_=0, max_=100, fillcolor="green", bgcolor="grey",
+                 range1=None, range2=None, range3=None, canvas_width=200, canvas_height=50, bar_height=30,
+                 bar_width=150, format="3.1f", **options):
         super().__init__(master, canvas_width, canvas_height, options)
         self.range(min_, max_)
         self.pattern = "%" + str(format).lstrip("%")
@@ -200,21 +202,23 @@ class Meter(Ranged):
         start, end = self.angle(high), self.angle(low)
         edge = 6 + self.radius * 0.06
         size = self.middle * 2
-        self.create_arc(edge, edge, size - edge, size - edge, start=math.degrees(start), extent=math.degrees(end - start),
-                        outline=color, style="arc", width=self.radius * 0.1)
+        self.create_arc(edge, edge, size - edge, size - edge, start=math.degrees(start),
+                        extent=math.degrees(end - start), outline=color, style="arc", width=self.radius * 0.1)
 
     def every(self, values):
         """How many marks have one number between them, so that numbers do not touch."""
         wide = 0.7 * POINT_PX * self.mark_points() * (max(len(f"{v:g}") for v in values) + 1)
         room = self.radius * 0.7 * SWEEP_RAD / max(len(values) - 1, 1)
-        return next(n for n in (m * 10 ** e for e in range(9) for m in (1, 2, 5)) if n * room >= wide or n > len(values))
+        return next(n for n in (m * 10 ** e for e in range(9) for m in (1, 2, 5))
+                    if n * room >= wide or n > len(values))
 
     def mark_points(self):
         return max(int(self.middle / 12), 6)
 
     def mark(self, value, long, named):
         angle = self.angle(value)
-        self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * (1 - long)), width=2 if long > 0.1 else 1)
+        self.create_line(*self.at(angle, self.radius), *self.at(angle, self.radius * (1 - long)),
+                         width=2 if long > 0.1 else 1)
         if named:
             self.write(*self.at(angle, self.radius * 0.7), self.mark_points(), text=f"{value:g}")
 

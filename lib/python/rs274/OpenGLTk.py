@@ -11,8 +11,9 @@ redraw() of the class that has both is called when the window shows and when the
 
 from kerf import gl
 
-TOGL_OPTIONS = ("accum", "alpha", "auxbuffers", "depth", "double", "ident", "indirect", "overlay", "rgba", "sharecontext", "sharelist", "stencil",
-                "stereo", "time")          # of other widgets for OpenGL: the context has what is needed
+# of other widgets for OpenGL: the context has what is needed
+TOGL_OPTIONS = ("accum", "alpha", "auxbuffers", "depth", "double", "ident", "indirect", "overlay", "rgba",
+                "sharecontext", "sharelist", "stencil", "stereo", "time")
 
 
 class RawOpengl(gl.Frame):
@@ -20,7 +21,8 @@ class RawOpengl(gl.Frame):
 
     def __init__(self, master=None, cnf=None, **kw):
         wanted = {name.lstrip("-"): value for name, value in ((cnf or {}) | kw).items()}
-        super().__init__(master, background="", **{name: value for name, value in wanted.items() if name not in TOGL_OPTIONS})
+        super().__init__(master, background="",
+                         **{name: value for name, value in wanted.items() if name not in TOGL_OPTIONS})
         self.bind("<Map>", self.tkMap)
         self.bind("<Expose>", self.tkExpose)
         self.bind("<Configure>", self.tkExpose)
@@ -48,8 +50,9 @@ class RawOpengl(gl.Frame):
 
 
 class Opengl(RawOpengl):
-    """The mouse moves the view: left drag pans, middle or Shift and left rotates, right or Control and left and the wheel
-    zoom; the class that draws has pan(dx, dy) and rotate(dx, dy) in pixels, zoom(factor). A click calls select(x, y)."""
+    """The mouse moves the view: left drag pans, middle or Shift and left rotates, right or Control and left and the
+    wheel zoom; the class that draws has pan(dx, dy) and rotate(dx, dy) in pixels, zoom(factor). A click calls
+    select(x, y)."""
 
     def __init__(self, master=None, cnf=None, **kw):
         super().__init__(master, cnf, **kw)

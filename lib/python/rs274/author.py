@@ -95,7 +95,8 @@ def simplify(points, tolerance, plane=None):
 
 
 class Gcode:
-    def __init__(self, homeheight=1.5, safetyheight=0.04, tolerance=0.001, units="G20", target=print, spindle_speed=1000):
+    def __init__(self, homeheight=1.5, safetyheight=0.04, tolerance=0.001, units="G20", target=print,
+                 spindle_speed=1000):
         """spindle_speed: rpm that begin() starts the spindle with; 0: it does not."""
         self.homeheight, self.safetyheight = homeheight, safetyheight
         self.spindle_speed = spindle_speed

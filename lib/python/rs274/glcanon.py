@@ -7,8 +7,9 @@ from rs274.glcanon_bake import ARC, FEED, TRAVERSE, ProgramGeometry
 from rs274.interpret import ArcsToSegmentsMixin, Translated
 
 _REMOVED = {
-    "traverse": "read program_geometry (kind 0)", "feed": "read program_geometry (kind 1)", "arcfeed": "read program_geometry (kind 2)",
-    "moves": "read program_geometry", "move_cats": "read program_geometry.kinds", "preview_zero_rxy": "read program_geometry.extents_zero_rxy",
+    "traverse": "read program_geometry (kind 0)", "feed": "read program_geometry (kind 1)",
+    "arcfeed": "read program_geometry (kind 2)", "moves": "read program_geometry",
+    "move_cats": "read program_geometry.kinds", "preview_zero_rxy": "read program_geometry.extents_zero_rxy",
 }
 
 

@@ -71,7 +71,8 @@ class ProgramGeometry:
             elif letter in "XYZABCUVW":
                 self._letters.append((letter, sign))
                 sign = 1.0
-        self._plain = [l for l, s in self._letters if l in "XYZ"] == ["X", "Y", "Z"] and all(s > 0 for l, s in self._letters)
+        self._plain = ([l for l, s in self._letters if l in "XYZ"] == ["X", "Y", "Z"]
+                       and all(s > 0 for l, s in self._letters))
         self._turns = "!" in self.geometry and any(l in "ABC" and l in self.coordinates for l, s in self._letters)
 
     def clear(self):
@@ -164,7 +165,8 @@ class ProgramGeometry:
     def positions(self, plane=0):
         """N x 3 float32. plane 1: the second plane of a foam cutter."""
         data = self._uv if plane and self.is_foam else self._points
-        return numpy.frombuffer(data, dtype=numpy.float32).reshape(-1, 3).copy() if data else numpy.empty((0, 3), numpy.float32)
+        return (numpy.frombuffer(data, dtype=numpy.float32).reshape(-1, 3).copy() if data
+                else numpy.empty((0, 3), numpy.float32))
 
     @property
     def lines(self):

@@ -27,8 +27,8 @@ from kerf.glpath import Renderer
 
 VIEWS = "x", "y", "z", "p"          # of get_view()
 CONE_BASESIZE = 0.5
-PLOT = (("jog", (1., 1., 0.), .75), ("traverse", (.3, .5, .5), .25), ("feed", (.75, .25, .25), .75), ("arc", (.75, .25, .5), .75),
-        ("toolchange", (1., .65, 0.), .25), ("probing", (.63, .13, .94), .75))
+PLOT = (("jog", (1., 1., 0.), .75), ("traverse", (.3, .5, .5), .25), ("feed", (.75, .25, .25), .75),
+        ("arc", (.75, .25, .5), .75), ("toolchange", (1., .65, 0.), .25), ("probing", (.63, .13, .94), .75))
 PICK_PX = 5.0
 LETTER_PX = 13
 
@@ -47,7 +47,8 @@ class Recorded:
         self.extents, self.extents_tool = record.extents, record.extents_notool         # "notool": with the tool offset
         m1xx = canon.colors.get("m1xx")
         marks = [(m1xx is not None and colour == m1xx, (x, y, z, plane)) for _, colour, x, y, z, plane in canon.dwells]
-        self.mark_places = tuple(np.array([at for user_m, at in marks if user_m == kind], np.float32).tobytes() for kind in (False, True))
+        self.mark_places = tuple(np.array([at for user_m, at in marks if user_m == kind], np.float32).tobytes()
+                                 for kind in (False, True))
 
     def drawings(self, planes):
         """The record's points are placed already."""
@@ -57,8 +58,10 @@ class Recorded:
 
 def still_layer(scene, matrix):
     """What the layer is made of that stays while only the tool, the plot and the texts change."""
-    items = [(np.asarray(i.vertices, np.float32).tobytes(), bytes(np.asarray(i.kinds, np.uint8)), i.colour, i.width) for i in (*scene.before, *scene.after)]
-    return matrix, scene.back, list(scene.drawings), scene.palettes, scene.selected, scene.selected_spans, scene.labels, items
+    items = [(np.asarray(i.vertices, np.float32).tobytes(), bytes(np.asarray(i.kinds, np.uint8)), i.colour, i.width)
+             for i in (*scene.before, *scene.after)]
+    return (matrix, scene.back, list(scene.drawings), scene.palettes, scene.selected, scene.selected_spans,
+            scene.labels, items)
 
 
 class GlCanonDraw:
@@ -68,8 +71,11 @@ class GlCanonDraw:
     """
 
     colors = {name: shares(text) for name, text in COLOURS.items()} | ALPHA | {
-        f"{name}_{plane}": colour for name in ("straight_feed", "arc_feed") for plane, colour in (("xy", (.2, 1., .2)), ("uv", (.2, .2, 1.)))} | {
-        f"backplot{name}": colour for name, colour, _ in PLOT} | {f"backplot{name}_alpha": alpha for name, _, alpha in PLOT} | {"tool_ambient": (.4,) * 3}
+        f"{name}_{plane}": colour for name in ("straight_feed", "arc_feed")
+        for plane, colour in (("xy", (.2, 1., .2)), ("uv", (.2, .2, 1.)))} | {
+        f"backplot{name}": colour for name, colour, _ in PLOT} | {f"backplot{name}_alpha": alpha
+                                                                  for name, _, alpha in PLOT} | {"tool_ambient":
+                                                                      (.4,) * 3}
 
     def __init__(self, s=None, lp=None, g=None):
         """s: linuxcnc.stat(); lp: linuxcnc.positionlogger() or None; g: the canon shown first."""
@@ -167,7 +173,8 @@ class GlCanonDraw:
         self.canon, self._preview_shown = canon, None
 
     def load_preview(self, f, canon, *args):
-        """Reads a program into a canon: (result, last line) of gcode.parse. Ctrl-C and (AXIS,stop) keep the part so far."""
+        """Reads a program into a canon: (result, last line) of gcode.parse. Ctrl-C and
+        (AXIS,stop) keep the part so far."""
         self.set_canon(canon)
         result, line = 0, 0
         try:
@@ -196,7 +203,8 @@ class GlCanonDraw:
         """Highlights the line of the program at a pixel; where there is none, none."""
         scenes, size = self._preview_composed(), self._preview_size()
         kinds = 7 if self.get_show_rapids() else 6
-        found = next((line for line in (d.pick(scenes.camera.matrix(*size), *size, x, y, PICK_PX, kinds) for d in scenes.drawings) if line >= 0), None)
+        found = next((line for line in (d.pick(scenes.camera.matrix(*size), *size, x, y, PICK_PX, kinds)
+                                        for d in scenes.drawings) if line >= 0), None)
         self.set_highlight_line(found)
 
     # -- the view ------------------------------------------------------------------------------
@@ -240,24 +248,29 @@ class GlCanonDraw:
         """As the composer and the readout of AXIS want them."""
         wrapped = {c for c in "ABC" if getattr(self, f"get_{c.lower()}_axis_wrapped")()}
         return SimpleNamespace(
-            units_per_mm=(self.stat.linear_units if self.stat is not None else 0) or 1.0, foam=bool(self.is_foam()), foam_z=self.get_foam_z(),
-            foam_w=self.get_foam_w(), lathe=bool(self.is_lathe()), geometry=self.get_geometry().upper(), coordinates=self.trajcoordinates,
-            axes="".join(c for c in LETTERS if c in self.trajcoordinates), joints=self.get_num_joints(), find=self._preview_find,
-            flag=lambda section, name: section[-1] in wrapped and name == "WRAPPED_ROTARY")
+            units_per_mm=(self.stat.linear_units if self.stat is not None else 0) or 1.0, foam=bool(self.is_foam()),
+            foam_z=self.get_foam_z(), foam_w=self.get_foam_w(), lathe=bool(self.is_lathe()),
+            geometry=self.get_geometry().upper(), coordinates=self.trajcoordinates,
+            axes="".join(c for c in LETTERS if c in self.trajcoordinates), joints=self.get_num_joints(),
+            find=self._preview_find, flag=lambda section, name: section[-1] in wrapped and name == "WRAPPED_ROTARY")
 
     def _preview_options(self):
         line = self.get_highlight_line()
         return SimpleNamespace(
-            show_program=self.get_show_program(), show_rapids=self.get_show_rapids(), program_alpha=self.get_program_alpha(),
-            show_live_plot=self.get_show_live_plot(), show_tool=self.get_show_tool(), show_extents=self.get_show_extents(),
-            show_offsets=self.get_show_offsets(), show_machine_limits=self.get_show_limits(), grid_size=self.get_grid_size() or 0.0,
-            highlight_line=line if line is not None else -1, metric=self.get_show_metric(), coord_type=self.get_show_relative(),
-            display_type=self.get_show_commanded(), dro_large_font=False, cone_size=self.cone_basesize, cone_scaling=True, min_tool_diameter=0.0)
+            show_program=self.get_show_program(), show_rapids=self.get_show_rapids(),
+            program_alpha=self.get_program_alpha(), show_live_plot=self.get_show_live_plot(),
+            show_tool=self.get_show_tool(), show_extents=self.get_show_extents(),
+            show_offsets=self.get_show_offsets(), show_machine_limits=self.get_show_limits(),
+            grid_size=self.get_grid_size() or 0.0, highlight_line=line if line is not None else -1,
+            metric=self.get_show_metric(), coord_type=self.get_show_relative(),
+            display_type=self.get_show_commanded(), dro_large_font=False, cone_size=self.cone_basesize,
+            cone_scaling=True, min_tool_diameter=0.0)
 
     def _preview_composed(self):
         """The scenes, with the program that the canon has now."""
         settings = self._preview_settings()
-        what = {name: value for name, value in vars(settings).items() if not callable(value)}      # units are 0 before the first poll
+        # units are 0 before the first poll
+        what = {name: value for name, value in vars(settings).items() if not callable(value)}
         if self._preview_scenes is None or what != self._preview_settings_made:
             self._preview_scenes = Composer(settings, self._preview_options(), self.lp, round(self.get_font_info()[1]))
             self._preview_settings_made, self._preview_shown, self._preview_view = what, None, None
@@ -273,7 +286,8 @@ class GlCanonDraw:
         view = self.get_view()
         if view != self._preview_view:
             self._preview_view = view
-            scenes.camera.set_view("lathe" if scenes.s.lathe and view != 3 else VIEWS[view] if view in range(len(VIEWS)) else "p")
+            scenes.camera.set_view("lathe" if scenes.s.lathe and view != 3 else VIEWS[view]
+                                   if view in range(len(VIEWS)) else "p")
             scenes.camera.fit(*scenes.shown_box())
         if self._preview_shown is None:
             recorded = Recorded(self.canon) if self.canon is not None else None
@@ -282,8 +296,9 @@ class GlCanonDraw:
         return scenes
 
     def _preview_readout(self):
-        return SimpleNamespace(relative=self.get_show_relative(), commanded=self.get_show_commanded(), metric=self.get_show_metric(),
-                               joints=self.get_joints_mode(), offsets=self.get_show_offsets(), speed=self.get_show_machine_speed(),
+        return SimpleNamespace(relative=self.get_show_relative(), commanded=self.get_show_commanded(),
+                               metric=self.get_show_metric(), joints=self.get_joints_mode(),
+                               offsets=self.get_show_offsets(), speed=self.get_show_machine_speed(),
                                distance_to_go=self.get_show_distance_to_go(),
                                extra_joints=max(0, self.get_num_joints() - len(self.trajcoordinates)))
 

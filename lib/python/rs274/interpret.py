@@ -33,8 +33,9 @@ class Translated:
             x, y = x * self.rotation_cos - y * self.rotation_sin, x * self.rotation_sin + y * self.rotation_cos
         return [
             x + self.g5x_offset_x, y + self.g5x_offset_y, z + self.g92_offset_z + self.g5x_offset_z,
-            a + self.g92_offset_a + self.g5x_offset_a, b + self.g92_offset_b + self.g5x_offset_b, c + self.g92_offset_c + self.g5x_offset_c,
-            u + self.g92_offset_u + self.g5x_offset_u, v + self.g92_offset_v + self.g5x_offset_v, w + self.g92_offset_w + self.g5x_offset_w,
+            a + self.g92_offset_a + self.g5x_offset_a, b + self.g92_offset_b + self.g5x_offset_b,
+            c + self.g92_offset_c + self.g5x_offset_c, u + self.g92_offset_u + self.g5x_offset_u,
+            v + self.g92_offset_v + self.g5x_offset_v, w + self.g92_offset_w + self.g5x_offset_w,
         ]
 
     def straight_traverse(self, *position):
@@ -70,7 +71,8 @@ class ArcsToSegmentsMixin:
     def arc_feed(self, first_end, second_end, first_axis, second_axis, rotation, axis_end, a, b, c, u, v, w):
         self.lo = tuple(self.lo)
         self.straight_arcsegments(gcode.arc_to_segments(
-            self, first_end, second_end, first_axis, second_axis, rotation, axis_end, a, b, c, u, v, w, self.arcdivision))
+            self, first_end, second_end, first_axis, second_axis, rotation, axis_end, a, b, c, u, v, w,
+            self.arcdivision))
 
 
 _random_index = -1  # place of the tool that the last change of a random changer put into the spindle

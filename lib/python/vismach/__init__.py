@@ -19,12 +19,12 @@ _gl.library()           # PyOpenGL's platform is chosen before its names are tak
 from OpenGL.GL import *
 from OpenGL.GLU import *
 
-from .guides import (HalCoordsFromNormalAndDirection, HalGrid, HalGridFromNormal, HalGridFromNormalAndDirection, HalLine,
-                     HalPlaneFromNormal)
+from .guides import (HalCoordsFromNormalAndDirection, HalGrid, HalGridFromNormal,
+                     HalGridFromNormalAndDirection, HalLine, HalPlaneFromNormal)
 from .hud import Hud
 from .meshes import AsciiOBJ, AsciiSTL
-from .parts import (Capture, Collection, Color, HalRotate, HalRotateEuler, HalScale, HalShow, HalTranslate, HalVectorRotate,
-                    HalVectorTranslate, Rotate, Scale, Track, Translate, invert)
-from .shapes import (ArcX, Box, BoxCentered, BoxCenteredXY, CylinderX, CylinderY, CylinderZ, Sphere, TriangleXY, TriangleXZ,
-                     TriangleYZ)
+from .parts import (Capture, Collection, Color, HalRotate, HalRotateEuler, HalScale, HalShow, HalTranslate,
+                    HalVectorRotate, HalVectorTranslate, Rotate, Scale, Track, Translate, invert)
+from .shapes import (ArcX, Box, BoxCentered, BoxCenteredXY, CylinderX, CylinderY, CylinderZ, Sphere,
+                     TriangleXY, TriangleXZ, TriangleYZ)
 from .view import main

@@ -100,7 +100,8 @@ class Hud:
         font = imagefont.load(FONT, size)
         for row, text in enumerate(texts):
             for column, letter in enumerate(text):
-                pen.text((wide * (column + 1), edge + tall * row), imagefont.drawable(font, letter), font=font, fill=colors[1] + (255,))
+                pen.text((wide * (column + 1), edge + tall * row), imagefont.drawable(font, letter), font=font,
+                         fill=colors[1] + (255,))
         return image
 
     def draw(self, height):

@@ -10,7 +10,8 @@ from OpenGL import GL
 from .parts import Capture, Collection, Color, HalTranslate, Transform
 from .shapes import Box, CylinderZ
 
-GREY, BLUE, RED, YELLOW, WHITE = (.6, .6, .65, 1), (.35, .5, .75, 1), (.8, .3, .25, 1), (.95, .8, .25, 1), (.85, .85, .85, 1)
+GREY, BLUE, RED, YELLOW, WHITE = ((.6, .6, .65, 1), (.35, .5, .75, 1), (.8, .3, .25, 1), (.95, .8, .25, 1),
+                                  (.85, .85, .85, 1))
 STEEL = (.75, .78, .8, 1)
 
 
@@ -67,7 +68,8 @@ class Free(Transform):
 
 
 class Link(Transform):
-    """A joint of an arm by its modified Denavit-Hartenberg numbers (mm, degrees); offset: its angle when the pin is 0."""
+    """A joint of an arm by its modified Denavit-Hartenberg numbers (mm, degrees); offset: its
+    angle when the pin is 0."""
 
     def __init__(self, parts, comp, pin, a, alpha, d, offset):
         super().__init__(parts)
@@ -83,19 +85,22 @@ class Link(Transform):
 
 
 def arm(comp, links, hand, size, base_height):
-    """A robot of turning joints; links: (pin, a, alpha, d, offset). (model, capture at the hand, capture at the base)."""
+    """A robot of turning joints; links: (pin, a, alpha, d, offset). (model, capture at the
+    hand, capture at the base)."""
     tip, base = Capture(), Capture()
     parts = [hand, tip]
     for number, (pin, a, alpha, d, offset) in reversed(list(enumerate(links))):
         after = links[number + 1] if number + 1 < len(links) else None
         half, radius = (.068, .05) if number % 2 else (.06, .06)      # axes that cross: one shows through the other
-        body = [Color(BLUE if number % 2 else YELLOW, [CylinderZ(-size * half, size * radius, size * half, size * radius)])]
+        body = [Color(BLUE if number % 2 else YELLOW,
+                      [CylinderZ(-size * half, size * radius, size * half, size * radius)])]
         if after and abs(after[1]) > size * .05:
             body.append(Color(GREY, [Box(0, -size * .035, -size * .035, after[1], size * .035, size * .035)]))
         if abs(d) > size * .05:
             body.append(Color(GREY, [CylinderZ(-d, size * .04, 0, size * .04)]))
         parts = [Link([*body, *parts], comp, pin, a, alpha, d, offset)]
-    stand = Color(STEEL, [Box(-size * .15, -size * .15, -base_height, size * .15, size * .15, -base_height + size * .03),
+    stand = Color(STEEL, [Box(-size * .15, -size * .15, -base_height, size * .15, size * .15,
+                              -base_height + size * .03),
                           CylinderZ(-base_height, size * .1, 0, size * .08)])
     return Collection([base, stand, *parts]), tip, base
 

@@ -29,7 +29,8 @@ class File:
                 raise ValueError(f"{self.source}:{number}: {line.strip()!r} cannot be read") from None
         if len(self.points) % 3:
             raise ValueError(f"{self.source}: a triangle has no three corners")
-        self.arrays = self.finish(np.array(self.points, dtype=float).reshape(-1, 3), np.array(self.normals, dtype=float).reshape(-1, 3))
+        self.arrays = self.finish(np.array(self.points, dtype=float).reshape(-1, 3),
+                                  np.array(self.normals, dtype=float).reshape(-1, 3))
 
     def finish(self, points, normals):
         """All-zero normals are computed from the corners."""

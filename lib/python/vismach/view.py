@@ -26,7 +26,8 @@ MIN_ZOOM, MAX_ZOOM = 0.02, 50
 
 
 class Camera:
-    """Looks at a centre from a distance. lat, lon: degrees about the two vectors; 0 looks down along z, lat -90 along y with z up."""
+    """Looks at a centre from a distance. lat, lon: degrees about the two vectors; 0 looks down along z, lat -90 along
+    y with z up."""
 
     def __init__(self, size, lat=0, lon=0, vectors=None):
         self.size, self.lat, self.lon = size, lat, lon
@@ -148,7 +149,8 @@ class View:
         GL.glViewport(0, 0, width, height)
         GL.glClearColor(*BACKGROUND)
         GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
-        for what in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_LIGHT0, GL.GL_COLOR_MATERIAL, GL.GL_NORMALIZE, GL.GL_BLEND):
+        for what in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_LIGHT0, GL.GL_COLOR_MATERIAL,
+                     GL.GL_NORMALIZE, GL.GL_BLEND):
             GL.glEnable(what)
         GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
         GL.glLightModeli(GL.GL_LIGHT_MODEL_TWO_SIDE, 1)
@@ -202,7 +204,8 @@ def main(model, tool, work, size=10, hud=0, rotation_vectors=None, lat=0, lon=0)
     component.ready()
     ended, was_clear = [], [False]
     for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: ended.append(number))      # poll() ends: a signal comes in the middle of anything
+        # poll() ends: a signal comes in the middle of anything
+        signal.signal(number, lambda *_: ended.append(number))
 
     def poll():
         if ended:

@@ -51,7 +51,8 @@ GROUPS = {
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
     "Hardware": "hal_parport hal_speaker",
-    "Boards with HostMot2 firmware": "hostmot2 hm2_eth hm2_pci hm2_spi hm2_spix hm2_rpspi hm2_7i43 hm2_7i90 hm2_test mesa_uart hm2_modbus mesambccc elbpcom",
+    "Boards with HostMot2 firmware": "hostmot2 hm2_eth hm2_pci hm2_spi hm2_spix hm2_rpspi hm2_7i43 hm2_7i90 hm2_test "
+                                     "mesa_uart hm2_modbus mesambccc elbpcom",
     "Sensors": "max31855 thermistor",
     "Devices on Modbus and USB": "mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd pmx485 shuttle xhc-hb04",
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-# Points of 20 seeded programs from three sides: the line that is picked there is the nearest one of all (within a pixel),
-# and the vertices that the line shows are its own.
+# Points of 20 seeded programs from three sides: the line that is picked there is the nearest one of all (within a
+# pixel), and the vertices that the line shows are its own.
 import random
 import tempfile
 
@@ -25,7 +25,8 @@ with tempfile.TemporaryDirectory() as folder:
             composer.camera.fit(*composer.shown_box())
             matrix = composer.camera.matrix(*SIZE)
             clip = np.hstack([vertices, np.ones((len(vertices), 1))]) @ np.reshape(matrix, (4, 4)).T
-            pixels = np.column_stack([SIZE[0] / 2 * (1 + clip[:, 0] / clip[:, 3]), SIZE[1] / 2 * (1 - clip[:, 1] / clip[:, 3])])
+            pixels = np.column_stack([SIZE[0] / 2 * (1 + clip[:, 0] / clip[:, 3]),
+                                      SIZE[1] / 2 * (1 - clip[:, 1] / clip[:, 3])])
             start, way = pixels[:-1], np.diff(pixels, axis=0)
             for piece in r.choices(np.flatnonzero(drawn), k=20):
                 at = start[piece] + r.random() * way[piece]

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-# VICTIM display: the screen is killed while a jog key is held, and comes again. VICTIM halui: the other operator's interface is.
+# VICTIM display: the screen is killed while a jog key is held, and comes again. VICTIM halui: the other operator's
+# interface is.
 import os
 import re
 import signal
@@ -13,7 +14,8 @@ def script(op):
     out = open("../seen.new", "a", buffering=1)
     if op.app.former is not None:            # the screen that came after the killed one
         op.wait(0.1)
-        print("stopped within 2 mm:", abs(op.position(0) - float(open("../at").read())) < 2, "stands:", not any(j["velocity"] for j in op.stat.joint[:3]),
+        print("stopped within 2 mm:", abs(op.position(0) - float(open("../at").read())) < 2, "stands:",
+              not any(j["velocity"] for j in op.stat.joint[:3]),
               "still on:", op.stat.task_state == linuxcnc.STATE_ON, op.messages()[1:], file=out)
         op.wait(1.0)
         print("nothing starts by itself:", not any(j["velocity"] for j in op.stat.joint[:3]), file=out)

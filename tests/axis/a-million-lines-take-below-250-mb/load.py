@@ -29,7 +29,8 @@ def script(op):
     op.wait(2)
     op.app.set_highlight_line(900000)
     op.wait(1)
-    print("vertices:", len(memoryview(op.app.preview.drawings[0].kinds)), "thinned:", op.app.preview.program.thinned, file=out)
+    print("vertices:", len(memoryview(op.app.preview.drawings[0].kinds)), "thinned:",
+          op.app.preview.program.thinned, file=out)
     print("below 250 MB:", {kind: True if 0 < most < LIMIT_MB else most for kind, most in seen.items()}, file=out)
     print("at most", seen, file=sys.stderr)
 

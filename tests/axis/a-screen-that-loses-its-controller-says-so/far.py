@@ -15,9 +15,11 @@ from kerf import clock
 clock.join("far")
 clock.leave()
 sys.stdout = open("../seen", "w", buffering=1)
-Path("far.nml").write_text(re.sub(r"^(P +xemc +\S+ +)LOCAL", r"\1REMOTE", Path(os.environ["NMLFILE"]).read_text(), flags=re.M))
+Path("far.nml").write_text(re.sub(r"^(P +xemc +\S+ +)LOCAL", r"\1REMOTE",
+                                  Path(os.environ["NMLFILE"]).read_text(), flags=re.M))
 Path("far.ini").write_text(Path("mill.ini").read_text().replace("[EMC]\n", "[EMC]\nNML_FILE = far.nml\n", 1))
-env = {name: value for name, value in os.environ.items() if not name.startswith("LINUXCNC_SESSION")} | {"AXIS_NO_HAL": "1", "KERF_CLOCK": "real"}
+env = {name: value for name, value in os.environ.items()
+       if not name.startswith("LINUXCNC_SESSION")} | {"AXIS_NO_HAL": "1", "KERF_CLOCK": "real"}
 
 
 def until(condition, what, seconds=120):
@@ -37,8 +39,10 @@ def speed():
     return hal.get_value("joint.0.vel-cmd")
 
 
-screen = subprocess.Popen(["axis", "-ini", "far.ini"], env=env, stdin=subprocess.DEVNULL, stdout=open("../far.log", "w"), stderr=subprocess.STDOUT)
-window = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "AXIS.* on "], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
+screen = subprocess.Popen(["axis", "-ini", "far.ini"], env=env, stdin=subprocess.DEVNULL,
+                          stdout=open("../far.log", "w"), stderr=subprocess.STDOUT)
+window = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "AXIS.* on "],
+                        stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
 c = linuxcnc.command()
 for order in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
     c.state(order)

@@ -57,7 +57,8 @@ def script(op):
 
     op.key("r")
     op.until(lambda: stat().motion_line > 5, "program runs")
-    print("running: open possible", op.enabled(".toolbar.file_open"), "pause possible", op.enabled(".toolbar.program_pause"))
+    print("running: open possible", op.enabled(".toolbar.file_open"), "pause possible",
+          op.enabled(".toolbar.program_pause"))
     op.key("p")
     op.until(lambda: stat().paused, "pause")
     op.key("5")

@@ -17,8 +17,9 @@ def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app = op.app
     op.power_on()
-    print("joints shown:", app.joints_shown, "off limits when nothing is homed:", [n for n in range(5) if n not in buttons(op)],
-          "offsets shown at the start:", bool(app.vars.show_offsets.get()))
+    print("joints shown:", app.joints_shown, "off limits when nothing is homed:",
+          [n for n in range(5) if n not in buttons(op)], "offsets shown at the start:",
+          bool(app.vars.show_offsets.get()))
     app.command.home(4)
     op.until(lambda: op.stat.joint[4]["homed"], "the extra joint is homed")
     print("extra joint homed, may be chosen:", buttons(op))
@@ -37,7 +38,8 @@ def script(op):
     op.idle()
     print("first line: MDI", op.stat.task_mode == linuxcnc.MODE_MDI, end=" ")
     op.key("F3")
-    print("manual page: manual", op.stat.task_mode == linuxcnc.MODE_MANUAL, "axes under control", op.stat.motion_mode == linuxcnc.TRAJ_MODE_TELEOP)
+    print("manual page: manual", op.stat.task_mode == linuxcnc.MODE_MANUAL, "axes under control",
+          op.stat.motion_mode == linuxcnc.TRAJ_MODE_TELEOP)
 
 
 lib.run(script)

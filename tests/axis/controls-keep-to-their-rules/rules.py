@@ -12,11 +12,13 @@ MANUAL = ".pane.top.tabs.fmanual"
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, tcl = op.app, op.root.tk
-    print("user's faulty update:", [m for m in op.messages() if "no such sensor" in m][:1] != [], "told", len([m for m in op.messages() if "sensor" in m]), "time")
+    print("user's faulty update:", [m for m in op.messages() if "no such sensor" in m][:1] != [], "told",
+          len([m for m in op.messages() if "sensor" in m]), "time")
     buttons_off(op)
     op.power_on()
     op.home()
-    print("without its entries the menu still follows: run", op.enabled(".toolbar.program_run"), "Touch Off", op.enabled(f"{MANUAL}.jogf.zerohome.zero"))
+    print("without its entries the menu still follows: run", op.enabled(".toolbar.program_run"), "Touch Off",
+          op.enabled(f"{MANUAL}.jogf.zerohome.zero"))
     op.app.notifications.clear()
     steps(op)
     options(op)
@@ -56,9 +58,11 @@ def steps(op):
     mouse(op, plus, "<Enter>", "<Button-1>", "<ButtonRelease-1>")
     op.wait(0.5)
     clicked = op.position(0)
-    mouse(op, plus, "<Button-1>", "<ButtonRelease-1>", "<Button-1>", "<ButtonRelease-1>", "<Button-1>", "<ButtonRelease-1>", "<Leave>")
+    mouse(op, plus, "<Button-1>", "<ButtonRelease-1>", "<Button-1>", "<ButtonRelease-1>", "<Button-1>",
+          "<ButtonRelease-1>", "<Leave>")
     op.wait(1.0)
-    print("step of 1 mm: pressed", pressed, "left", left, "clicked", clicked, "three times at once: whole steps", op.position(0) in (3.0, 4.0, 5.0), op.position(0))
+    print("step of 1 mm: pressed", pressed, "left", left, "clicked", clicked, "three times at once: whole steps",
+          op.position(0) in (3.0, 4.0, 5.0), op.position(0))
     app.continuous()
     mouse(op, plus, "<Enter>", "<Button-1>")
     op.wait(0.2)
@@ -77,13 +81,15 @@ def options(op):
     other.set_optional_stop(0)
     op.until(lambda: not app.vars.block_delete.get() and not app.vars.optional_stop.get(), "options follow")
     print("options:", before, "by another program:", (app.vars.block_delete.get(), app.vars.optional_stop.get()),
-          "preference stays:", app.prefs.getpref("block_delete"), "shown pressed:", op.root.tk.call(".toolbar.program_blockdelete", "cget", "-relief"), end=" ")
+          "preference stays:", app.prefs.getpref("block_delete"), "shown pressed:",
+          op.root.tk.call(".toolbar.program_blockdelete", "cget", "-relief"), end=" ")
     op.until(lambda: app.preview.program.n_moves != moves and not app.loading, "the preview follows")
     print("moves shown:", moves, "then", app.preview.program.n_moves)
     op.click(".toolbar.program_blockdelete")
     op.click(".toolbar.program_optpause")
     op.wait(1.0)
-    print("clicked: screen", (app.vars.block_delete.get(), app.vars.optional_stop.get()), "machine", (int(op.stat.block_delete), int(op.stat.optional_stop)),
+    print("clicked: screen", (app.vars.block_delete.get(), app.vars.optional_stop.get()), "machine",
+          (int(op.stat.block_delete), int(op.stat.optional_stop)),
           "preference", app.prefs.getpref("block_delete"), "moves:", app.preview.program.n_moves)
 
 
@@ -107,7 +113,8 @@ def expressions(op):
     op.answer_touchoff("#5241*2")
     op.key("End")
     op.idle()
-    print("a parameter in an expression: shown as it will be, X now", round(op.stat.actual_position[0] - op.stat.g5x_offset[0], 4))
+    print("a parameter in an expression: shown as it will be, X now",
+          round(op.stat.actual_position[0] - op.stat.g5x_offset[0], 4))
 
 
 def programs(op):
@@ -149,7 +156,8 @@ def history(op):
             tcl.call("event", "generate", box, event, "-x", x + 3, "-y", y + high // 2)
         op.wait(1.0 if times == 1 else 0.1)
         return app.vars.mdi_command.get()
-    print("history:", tcl.splitlist(tcl.call(box, "get", 0, "end")), "clicked:", click(0), "two:", repr(click(1, "<Shift-Button-1>")), end=" ")
+    print("history:", tcl.splitlist(tcl.call(box, "get", 0, "end")), "clicked:", click(0), "two:",
+          repr(click(1, "<Shift-Button-1>")), end=" ")
     op.key("h", app.root.focus_get(), 4)
     print("copied:", repr(op.root.clipboard_get()), "the empty line:", repr(click(3)), "again:", click(1), end=" ")
     op.key("Up", app.root.focus_get())
@@ -185,7 +193,8 @@ def faults(op):
     while len(looks) < 3:
         op.root.update()
     app.show_readout = real
-    print("a fault in the update cycle: told", [m.split("\n")[0] for m in app.notifications.shown and op.messages()], "updates go on:", len(looks) >= 3)
+    print("a fault in the update cycle: told", [m.split("\n")[0] for m in app.notifications.shown and op.messages()],
+          "updates go on:", len(looks) >= 3)
     app.set_override("feedrate", 0)
     op.wait(0.2)
     op.key("r", state=4)

@@ -17,7 +17,8 @@ class Hand:
     real_ask = staticmethod(dialogs.ask)
 
     def window(self):
-        found = [w for w in self.tcl.splitlist(self.tcl.call("winfo", "children", ".")) if str(self.tcl.call("winfo", "class", w)) == "Dialog"
+        found = [w for w in self.tcl.splitlist(self.tcl.call("winfo", "children", "."))
+                 if str(self.tcl.call("winfo", "class", w)) == "Dialog"
                  and int(self.tcl.call("winfo", "viewable", w)) and str(w) not in (".about", ".keys")]
         return str(found[-1]) if found else None
 
@@ -38,9 +39,12 @@ class Hand:
     def describe(self):
         w = self.window()
         labels = [str(self.tcl.call(x, "cget", "-text")) for x in self.texts(w, "Label")]
-        buttons = [str(self.tcl.call(x, "cget", "-text")) + ("" if str(self.tcl.call(x, "cget", "-state")) != "disabled" else " (off)") for x in self.texts(w, "Button")]
+        buttons = [str(self.tcl.call(x, "cget", "-text"))
+                   + ("" if str(self.tcl.call(x, "cget", "-state")) != "disabled" else " (off)")
+                   for x in self.texts(w, "Button")]
         focus = str(self.tcl.call("focus"))
-        has = str(self.tcl.call(focus, "cget", "-text")) if str(self.tcl.call("winfo", "class", focus)) == "Button" else str(self.tcl.call("winfo", "class", focus))
+        has = (str(self.tcl.call(focus, "cget", "-text")) if str(self.tcl.call("winfo", "class", focus)) == "Button"
+               else str(self.tcl.call("winfo", "class", focus)))
         print("  ", self.tcl.call("wm", "title", w), labels, buttons, "keyboard:", has)
 
     def __call__(self, begin, *steps):
@@ -97,14 +101,16 @@ def script(op):
     def close():
         app.confirm_close()
         return bool(tcl.call("winfo", "exists", "."))
-    print("close window, Return:", hand(close, "look", "Return"), "Escape:", hand(close, "Escape"), "space:", hand(close, "KeyPress-space", "KeyRelease-space"))
+    print("close window, Return:", hand(close, "look", "Return"), "Escape:", hand(close, "Escape"), "space:",
+          hand(close, "KeyPress-space", "KeyRelease-space"))
 
     def homing():
         before = op.stat.echo_serial_number
         tcl.call("home_joint")
         op.wait(0.1)
         return op.stat.echo_serial_number > before           # commands were sent
-    print("homed already, Escape:", hand(homing, "look", "Escape"), "closed:", hand(homing, "close"), "Return:", hand(homing, "Return"))
+    print("homed already, Escape:", hand(homing, "look", "Escape"), "closed:", hand(homing, "close"), "Return:",
+          hand(homing, "Return"))
     op.until(lambda: app.all_homed() and not any(j["homing"] for j in op.stat.joint), "homed again")
     op.wait(0.3)
     hand(lambda: tcl.call("home_all_joints"), "look", "Escape")
@@ -113,7 +119,8 @@ def script(op):
         tcl.call("task_run")
         op.wait(0.1)
         return any("would exceed" in m for m in op.messages())       # it started, and stopped there
-    print("beyond the limits, Escape:", hand(runs, "look", "Escape"), "Tab and Return (cancel):", hand(runs, "Tab", "Return"))
+    print("beyond the limits, Escape:", hand(runs, "look", "Escape"), "Tab and Return (cancel):",
+          hand(runs, "Tab", "Return"))
     app.notifications.clear()
     print("looked at again:", hand(runs, "Shift-Tab", "Return", "Escape"), "run anyway:", hand(runs, "Return"))
     op.key("Escape")
@@ -123,9 +130,14 @@ def script(op):
 
     app.activate_ja_widget("x")
     op.wait(0.2)
-    for what, steps in (("Escape", ("look", "Escape")), ("wrong, Return does nothing", ("=[1+2", "look", "Return", "look", "Escape")), ("unknown", ("=nothing", "look", "Escape")),
-                        ("empty", ("=", "look", "Escape")), ("no number of the language", ("=1e3", "look", "=nan", "look", "Escape")), ("a decimal comma", ("=1,5", "look", "Escape")), ("expression, Return", ("=[sqrt[16]+1]*2", "look", "Return")),
-                        ("Alt-3, KP_Enter", ("=4", "Alt-Key-3", "KP_Enter")), ("once more", ("look", "Escape")), ("Alt-1", ("Alt-Key-1", "look", "Escape"))):
+    for what, steps in (("Escape", ("look", "Escape")),
+                        ("wrong, Return does nothing", ("=[1+2", "look", "Return", "look", "Escape")),
+                        ("unknown", ("=nothing", "look", "Escape")), ("empty", ("=", "look", "Escape")),
+                        ("no number of the language", ("=1e3", "look", "=nan", "look", "Escape")),
+                        ("a decimal comma", ("=1,5", "look", "Escape")),
+                        ("expression, Return", ("=[sqrt[16]+1]*2", "look", "Return")),
+                        ("Alt-3, KP_Enter", ("=4", "Alt-Key-3", "KP_Enter")), ("once more", ("look", "Escape")),
+                        ("Alt-1", ("Alt-Key-1", "look", "Escape"))):
         before = op.stat.g5x_offset[0]
         print(what)
         hand(lambda: tcl.call("touch_off_system"), *steps)
@@ -147,13 +159,15 @@ def script(op):
     print("grid")
     hand(lambda: tcl.call("set_grid_size_custom"), "look", "=1/2in", "Return")
     print("   ", v.grid_size.get())
-    print("user's:", hand(lambda: app.nf_dialog((".error", "-ext", "more"), "Title", "text", "info", 1, "a", "b", "c"), "look", "Tab", "Return"),
+    print("user's:", hand(lambda: app.nf_dialog((".error", "-ext", "more"), "Title", "text", "info", 1, "a", "b", "c"),
+                          "look", "Tab", "Return"),
           hand(lambda: app.nf_dialog(".error", "Title", "text", "info", 0, "a", "b"), "close"))
     op.key("F5")
     op.type("G10 L2 P1 X-10 R90")
     op.idle()
     op.key("F3")
-    print("float:", hand(lambda: app.prompt_float("Title", "text", 1.5, "mm"), "look", "=2*3", "Return"), hand(lambda: app.prompt_float("Title", "text", 1.5, "mm"), "Escape"))
+    print("float:", hand(lambda: app.prompt_float("Title", "text", 1.5, "mm"), "look", "=2*3", "Return"),
+          hand(lambda: app.prompt_float("Title", "text", 1.5, "mm"), "Escape"))
     print("properties:", hand(lambda: tcl.call("gcode_properties"), "Escape"))
 
 

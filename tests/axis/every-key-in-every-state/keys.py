@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-# Presses each key of the sheet's table in each state of the screen and writes down what the machine is told and what the screen shows.
+# Presses each key of the sheet's table in each state of the screen and writes down what the machine is told and what
+# the screen shows.
 import os
 import sys
 import tkinter as tk
@@ -13,17 +14,25 @@ from axis import commands, dialogs
 
 SHIFT, CONTROL, ALT, NUMLOCK = 1, 4, 8, 16
 # (keysym, modifiers): the table of the reference in its order; then combinations that must do nothing
-KEYS = [(k, 0) for k in "F1 F2 F3 F5 F4".split()] + [("Tab", CONTROL)] + [(k, 0) for k in "F7 F8 F9 F10 F11 F12 b".split()] + [("B", SHIFT)]
-KEYS += [("o", 0), ("r", CONTROL), ("s", CONTROL), ("r", 0), ("t", 0), ("p", 0), ("s", 0), ("Escape", 0), ("R", SHIFT), ("F", SHIFT), ("l", 0)]
+KEYS = [(k, 0) for k in "F1 F2 F3 F5 F4".split()] + [("Tab", CONTROL)] + [(k, 0)
+                                                                          for k in "F7 F8 F9 F10 F11 F12 b".split()] + [("B", SHIFT)]
+KEYS += [("o", 0), ("r", CONTROL), ("s", CONTROL), ("r", 0), ("t", 0), ("p", 0), ("s", 0), ("Escape", 0), ("R", SHIFT),
+         ("F", SHIFT), ("l", 0)]
 KEYS += [(k, 0) for k in "v d x y z a 0 1 2 9 grave i".split()] + [("I", SHIFT), ("c", 0), ("minus", 0), ("equal", 0)]
 JOGS = "Left Right Down Up Next Prior bracketleft bracketright KP_Left KP_Right KP_Down KP_Up KP_Next KP_Prior".split()
-KEYS += [(k, 0) for k in JOGS] + [(k, NUMLOCK) for k in "KP_4 KP_6 KP_2 KP_8 KP_3 KP_9".split()] + [("Left", SHIFT), ("Prior", SHIFT)]
+KEYS += ([(k, 0) for k in JOGS] + [(k, NUMLOCK) for k in "KP_4 KP_6 KP_2 KP_8 KP_3 KP_9".split()]
+         + [("Left", SHIFT), ("Prior", SHIFT)])
 KEYS += [("comma", 0), ("period", 0), ("less", 0), ("greater", SHIFT), ("semicolon", 0), ("apostrophe", 0)]
-KEYS += [("exclam", SHIFT), ("at", SHIFT), ("numbersign", SHIFT), ("dollar", SHIFT), ("Home", 0), ("Home", CONTROL), ("Home", SHIFT)]
-KEYS += [("End", 0), ("End", CONTROL), ("KP_Home", 0), ("KP_End", 0), ("KP_Home", SHIFT), ("KP_Home", CONTROL), ("KP_End", CONTROL)]
-KEYS += [("f", ALT), ("m", ALT), ("v", ALT), ("k", CONTROL), ("e", CONTROL), ("space", CONTROL), ("Return", 0), ("m", CONTROL), ("h", CONTROL), ("H", CONTROL | SHIFT)]
-NOTHING = [("L", SHIFT), ("O", SHIFT), ("T", SHIFT), ("p", ALT), ("q", 0), ("u", 0), ("Left", CONTROL), ("Right", ALT), ("minus", CONTROL), ("minus", SHIFT)]
-NOTHING += [(k, m) for m in (CONTROL, ALT, CONTROL | ALT) for k in "F2 F3 F5 F4 F7 F9 F11 b o t r s Escape l v d x 5 i c comma exclam dollar Home End k e space".split()
+KEYS += [("exclam", SHIFT), ("at", SHIFT), ("numbersign", SHIFT), ("dollar", SHIFT), ("Home", 0), ("Home", CONTROL),
+         ("Home", SHIFT)]
+KEYS += [("End", 0), ("End", CONTROL), ("KP_Home", 0), ("KP_End", 0), ("KP_Home", SHIFT), ("KP_Home", CONTROL),
+         ("KP_End", CONTROL)]
+KEYS += [("f", ALT), ("m", ALT), ("v", ALT), ("k", CONTROL), ("e", CONTROL), ("space", CONTROL), ("Return", 0),
+         ("m", CONTROL), ("h", CONTROL), ("H", CONTROL | SHIFT)]
+NOTHING = [("L", SHIFT), ("O", SHIFT), ("T", SHIFT), ("p", ALT), ("q", 0), ("u", 0), ("Left", CONTROL), ("Right", ALT),
+           ("minus", CONTROL), ("minus", SHIFT)]
+NOTHING += [(k, m) for m in (CONTROL, ALT, CONTROL | ALT)
+            for k in "F2 F3 F5 F4 F7 F9 F11 b o t r s Escape l v d x 5 i c comma exclam dollar Home End k e space".split()
             if (k, m) not in KEYS]
 FULL = ("manual",)
 BUSY = ("moving", "mdimoving", "homing")
@@ -32,8 +41,10 @@ AUTO = {value: name for name, value in vars(linuxcnc).items() if name.startswith
 JOG = {value: name[4:].lower() for name, value in vars(linuxcnc).items() if name.startswith("JOG_")}
 STATES = {value: name[6:] for name, value in vars(linuxcnc).items() if name.startswith("STATE_")}
 SHOWN = "ja_rbutton jogincrement jog_slider_val ajog_slider_val maxvel_slider_val feedrate metric display_type coord_type rotate_mode view_type mdi_command".split()
-CHOICES = ("show_program show_rapids program_alpha show_live_plot show_tool show_extents show_offsets show_machine_limits show_machine_speed "
-           "show_distance_to_go dro_large_font grid_size optional_stop block_delete tto_g11 dark_theme large_touch_targets interface_scale").split()
+CHOICES = ("show_program show_rapids program_alpha show_live_plot show_tool show_extents show_offsets "
+           "show_machine_limits show_machine_speed "
+           "show_distance_to_go dro_large_font grid_size optional_stop block_delete tto_g11 dark_theme "
+           "large_touch_targets interface_scale").split()
 told = []
 
 
@@ -120,11 +131,13 @@ def menus(op, out):
     """Each entry of each menu, chosen on a homed machine that is on and idle."""
     app, tcl = op.app, op.root.tk
     app.run_program = lambda words: told.append("starts " + " ".join(os.path.basename(w) for w in words))
-    tcl.createcommand("::axis::tool_program", lambda *words: told.append("starts " + " ".join(os.path.basename(w) for w in words)))
+    tcl.createcommand("::axis::tool_program",
+                      lambda *words: told.append("starts " + " ".join(os.path.basename(w) for w in words)))
     app.preview.clear_plot = lambda: told.append("clears the plot")
     enter(op, "spindle")
     base = look(op)
-    for menu in ("file", "file.recent", "machine", "machine.home", "machine.unhome", "machine.clearoffset", "view", "view.grid", "view.size", "help"):
+    for menu in ("file", "file.recent", "machine", "machine.home", "machine.unhome", "machine.clearoffset", "view",
+                 "view.grid", "view.size", "help"):
         path = f".menu.{menu}"
         for i in range(int(tcl.call(path, "index", "end")) + 1):
             kind = str(tcl.call(path, "type", i))
@@ -174,11 +187,15 @@ def look(op):
     """What the screen and the machine show, beside the position."""
     app, s, tcl = op.app, op.stat, op.root.tk
     seen = {n: getattr(app.vars, n).get() for n in SHOWN}
-    seen |= {"power": STATES[s.task_state], "mode": NAMES[s.task_mode], "runs": s.interp_state != linuxcnc.INTERP_IDLE, "paused": bool(s.paused),
-             "mist": s.mist, "flood": s.flood, "spindle": s.spindle[0]["direction"], "rpm": round(s.spindle[0]["speed"]), "brake": s.spindle[0]["brake"],
-             "tab": str(tcl.call(".pane.top.tabs", "raise")), "page": str(tcl.call(".pane.top.right", "raise")), "teleop": int(app.vars.teleop_mode.get()),
-             "homed": sum(s.homed), "homing": homing(op), "motion": s.motion_mode, "moves": s.current_vel > 0 or any(j["velocity"] for j in s.joint), "joints": app.joints_shown, "messages": [m.split(".")[0][:32] for m in op.messages()], "history": app.widgets.mdi_history.size(),
-             "panel": app.vars.show_pyvcppanel.get(), "focus": str(tcl.call("focus")), "clipboard": clipboard(op.root)}
+    seen |= {"power": STATES[s.task_state], "mode": NAMES[s.task_mode], "runs": s.interp_state != linuxcnc.INTERP_IDLE,
+             "paused": bool(s.paused), "mist": s.mist, "flood": s.flood, "spindle": s.spindle[0]["direction"],
+             "rpm": round(s.spindle[0]["speed"]), "brake": s.spindle[0]["brake"],
+             "tab": str(tcl.call(".pane.top.tabs", "raise")), "page": str(tcl.call(".pane.top.right", "raise")),
+             "teleop": int(app.vars.teleop_mode.get()), "homed": sum(s.homed), "homing": homing(op),
+             "motion": s.motion_mode, "moves": s.current_vel > 0 or any(j["velocity"] for j in s.joint),
+             "joints": app.joints_shown, "messages": [m.split(".")[0][:32] for m in op.messages()],
+             "history": app.widgets.mdi_history.size(), "panel": app.vars.show_pyvcppanel.get(),
+             "focus": str(tcl.call("focus")), "clipboard": clipboard(op.root)}
     return seen
 
 
@@ -211,8 +228,11 @@ def again(op, state, base):
     app.notifications.clear()
     app.set_override("feedrate", base["feedrate"])
     now = look(op)
-    if any(now[n] != base[n] for n in ("power", "mode", "runs", "paused", "mist", "flood", "spindle", "rpm", "brake", "tab", "teleop", "homed", "history", "focus")) or \
-            (not op.stat.inpos and state not in ("run", *BUSY)) or any(op.stat.g5x_offset) or (homing(op) and state != "homing"):
+    if any(now[n] != base[n]
+           for n in ("power", "mode", "runs", "paused", "mist", "flood", "spindle", "rpm", "brake", "tab", "teleop",
+                     "homed", "history", "focus")) or \
+            (not op.stat.inpos and state not in ("run",
+                                                 *BUSY)) or any(op.stat.g5x_offset) or (homing(op) and state != "homing"):
         enter(op, state)
     if look(op) != base:
         enter(op, state)

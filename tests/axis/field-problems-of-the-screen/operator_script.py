@@ -104,7 +104,8 @@ def jogging(op):
     speed, start = abs(speeds.pop()), op.stat.actual_position[0]
     op.let_go("Left")
     stopping = speed * speed / 2 / 1000 + speed * 0.03      # by acceleration, and until the command is there
-    print("let go: rests", at_rest(op), "within its stopping distance:", abs(op.stat.actual_position[0] - start) <= stopping)
+    print("let go: rests", at_rest(op), "within its stopping distance:",
+          abs(op.stat.actual_position[0] - start) <= stopping)
 
 
 def programs(op, here):
@@ -112,14 +113,17 @@ def programs(op, here):
     path = os.path.join(here, "part.ngc")
     with open(path) as f:
         text = f.read()
-    print("FP-138: run time with dwell:", [value for name, value in properties(app.shown_file, None, app.preview.program, app.settings, True) if name == "Run time"])
+    print("FP-138: run time with dwell:",
+          [value for name, value in properties(app.shown_file, None, app.preview.program, app.settings, True)
+           if name == "Run time"])
     with open(path, "w") as f:
         f.write(text.replace("G1 Y20", "G1 Y-80"))
     op.wait(0.5)
     print("FP-130:", [m.split(" ")[1:5] for m in op.messages() if "on disk" in m], end=" ")
     op.key("r")
     op.wait(0.3)
-    print("FP-186: not run:", op.stat.interp_state == linuxcnc.INTERP_IDLE, "told:", any("open it again" in m for m in op.messages()), "text shown:", app.line_text(5))
+    print("FP-186: not run:", op.stat.interp_state == linuxcnc.INTERP_IDLE, "told:",
+          any("open it again" in m for m in op.messages()), "text shown:", app.line_text(5))
     op.key("r", state=4)         # Control-R: reload, a copy that later edits do not touch
     op.wait(0.3)
     with open(path, "w") as f:
@@ -145,7 +149,8 @@ def programs(op, here):
     op.key("F3")
     op.root.tk.call("task_run_line")
     op.wait(0.5)
-    print("FP-131: cancelled: idle", op.stat.interp_state == linuxcnc.INTERP_IDLE, "nothing pending", op.stat.restore_line == 0)
+    print("FP-131: cancelled: idle", op.stat.interp_state == linuxcnc.INTERP_IDLE, "nothing pending",
+          op.stat.restore_line == 0)
     op.answer(0)
     op.root.tk.call("task_run_line")
     op.until(lambda: op.stat.interp_state != linuxcnc.INTERP_IDLE, "the restored start")
@@ -185,7 +190,8 @@ def follow_modes(op, path):
         clock_wait(op)
         low, high = app.preview.drawings[0].extents
         sizes = [round(25.4 * (b - a), 1) for a, b in zip(low, high)]
-        found.append((line, "read anew" if app.preview.program is not reading else "kept", sizes, round(25.4 * low[2], 1)))
+        found.append((line, "read anew" if app.preview.program is not reading else "kept", sizes,
+                      round(25.4 * low[2], 1)))
     print("FP-134: units, plane, tool length by hand:", *found, sep="\n  ")
     app.open_file_guts(path)
 
@@ -204,7 +210,8 @@ def others(op, here):
     opens(two)
     op.root.tk.call("task_run")                  # before the screen has looked around
     op.wait(0.3)
-    print("FP-130: another client's program, R at once: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "shown", app.line_text(2), op.messages())
+    print("FP-130: another client's program, R at once: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "shown",
+          app.line_text(2), op.messages())
     asks = dialogs.ask
 
     def ask(root, title, *rest, **more):
@@ -216,7 +223,8 @@ def others(op, here):
     op.root.tk.call("task_run")
     op.wait(0.3)
     dialogs.ask = asks
-    print("answered after another was opened: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "shown", os.path.basename(app.shown_file))
+    print("answered after another was opened: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "shown",
+          os.path.basename(app.shown_file))
     with open(one) as f:
         text = f.read()
     with open(one, "w") as f:
@@ -224,9 +232,11 @@ def others(op, here):
     opens(one)
     op.root.tk.call("task_run")
     op.wait(0.3)
-    print("FP-130: changed and opened by another client: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "told:", "open it again" in op.messages()[-1])
+    print("FP-130: changed and opened by another client: runs", op.stat.interp_state != linuxcnc.INTERP_IDLE, "told:",
+          "open it again" in op.messages()[-1])
     app.loading = True
-    print("axis-remote while a program is opened:", op.root.tk.call("remote", "open_file_name", two), "|", op.root.tk.call("remote", "reload_file"))
+    print("axis-remote while a program is opened:", op.root.tk.call("remote", "open_file_name", two), "|",
+          op.root.tk.call("remote", "reload_file"))
     app.loading = False
     with open(one, "w") as f:
         f.write(text)
@@ -240,7 +250,8 @@ def waiting_lines(op):
     for line in ("G4 P0.5", "M66 P0 L3 Q1", "G0 X5", "G0 X7", "G0 X6"):
         op.type(line)
     op.wait(0.2)
-    print("FP-127: waiting:", op.root.tk.splitlist(op.root.tk.call(box, "get", 0, "end")), "shown:", op.root.tk.call("winfo", "ismapped", box))
+    print("FP-127: waiting:", op.root.tk.splitlist(op.root.tk.call(box, "get", 0, "end")), "shown:",
+          op.root.tk.call("winfo", "ismapped", box))
     x, y, _, height = op.root.tk.splitlist(op.root.tk.call(box, "bbox", 1))
     for event in ("<ButtonPress-1>", "<ButtonRelease-1>") * 2:
         op.root.tk.call("event", "generate", box, event, "-x", int(x) + 2, "-y", int(y) + int(height) // 2)
@@ -263,8 +274,9 @@ def loading(op, here):
     op.key("F3")
     op.root.after(150, lambda: op.root.event_generate("<KeyPress-Escape>"))
     app.open_file_guts(os.path.join(here, "endless.ngc"))
-    print("FP-136: endless program: Escape ends the reading:", app.preview.program.aborted, "shown:", app.preview.program.n_moves > 0,
-          "limits not fully checked:", any("truncated" in w for w in app.limit_warnings()))
+    print("FP-136: endless program: Escape ends the reading:", app.preview.program.aborted, "shown:",
+          app.preview.program.n_moves > 0, "limits not fully checked:",
+          any("truncated" in w for w in app.limit_warnings()))
     op.root.after(150, lambda: op.root.event_generate("<KeyPress-F1>"))
     op.root.after(400, lambda: op.root.event_generate("<KeyPress-Escape>"))
     app.open_file_guts(os.path.join(here, "endless.ngc"))
@@ -279,7 +291,8 @@ def loading(op, here):
     op.wait(0.2)
     app.open_file_guts(os.path.join(here, "part.ngc"))
     app.open_file_guts(os.path.join(here, "part.ngc"))
-    print("FP-139: opened twice:", op.messages()[-1:] if any("open" in m for m in op.messages()[-1:]) else "no complaint")
+    print("FP-139: opened twice:",
+          op.messages()[-1:] if any("open" in m for m in op.messages()[-1:]) else "no complaint")
 
 
 def remote_estop(op, here):
@@ -309,7 +322,8 @@ def remote_estop(op, here):
         reading = real["reading"](*args)
         reading.result = stopped_at("reading", reading.result)
         return reading
-    app.loader.filtered, app.loader.kept_text, app.loader.read = stopped_at("filter", real["filter"]), stopped_at("copy", real["copy"]), read
+    app.loader.filtered, app.loader.kept_text, app.loader.read = (stopped_at("filter", real["filter"]),
+                                                                  stopped_at("copy", real["copy"]), read)
     open(go, "w").close()
     for name in ("filter", "copy", "reading"):
         at[:] = [name]
@@ -326,7 +340,8 @@ def remote_estop(op, here):
         moves = abs(op.stat.joint[0]["velocity"]) > 0
         op.let_go("Left")
         op.wait(0.5)
-        print("FP-187: loading,", at[0], "on", at[1], "stopped meanwhile", at[2], "| after it: screen", estop, "loading", hand, "then", app.vars.task_state_string.get(), "jogs", moves)
+        print("FP-187: loading,", at[0], "on", at[1], "stopped meanwhile", at[2], "| after it: screen", estop,
+              "loading", hand, "then", app.vars.task_state_string.get(), "jogs", moves)
     os.remove(go)
     app.loader.filtered, app.loader.kept_text, app.loader.read = (real[n] for n in ("filter", "copy", "reading"))
 
@@ -377,7 +392,8 @@ def touching_off(op):
     asked = []
 
     def wait(dialog, focus=None):
-        asked.append((dialog.system.get() if dialog.system else None, [w.cget("text") for w in dialog.window.winfo_children() if w.winfo_class() == "Label"]))
+        asked.append((dialog.system.get() if dialog.system else None,
+                      [w.cget("text") for w in dialog.window.winfo_children() if w.winfo_class() == "Label"]))
         dialog.value.set("5")
         dialog.accept()
         dialog.window.destroy()
@@ -395,11 +411,14 @@ def touching_off(op):
     op.key("End")
     op.wait(0.3)
     s = op.stat
-    print("FP-185:", asked[0][0], "|", asked[0][1][1], "| changed:", s.g5x_index, [i for i in range(9) if abs(before[i] - s.g5x_offset[i]) > 1e-9])
-    print("FP-183:", op.messages()[-1].split(":")[0:2], "shown value", [x for x in app.preview.readout_lines if x.strip().startswith("Y:")][0].split()[1])
+    print("FP-185:", asked[0][0], "|", asked[0][1][1], "| changed:", s.g5x_index,
+          [i for i in range(9) if abs(before[i] - s.g5x_offset[i]) > 1e-9])
+    print("FP-183:", op.messages()[-1].split(":")[0:2], "shown value",
+          [x for x in app.preview.readout_lines if x.strip().startswith("Y:")][0].split()[1])
     op.root.tk.call("undo_touch_off")
     op.wait(0.3)
-    print("FP-183: taken back:", all(abs(a - b) < 1e-6 for a, b in zip(before, op.stat.g5x_offset)), "only once:", app.undo_lines)
+    print("FP-183: taken back:", all(abs(a - b) < 1e-6 for a, b in zip(before, op.stat.g5x_offset)), "only once:",
+          app.undo_lines)
     app.notifications.clear()
     op.root.tk.call("set_axis_offset")                                                  # Shift-Home
     app.vars.touch_off_system.set("P3")
@@ -416,10 +435,13 @@ def touching_off(op):
     print("taken back:", op.messages()[-1:])
     op.key("F3")
     app.vars.touch_off_system.set("P0")
-    shown = {w.split(":")[0].strip(): float(w.split(":")[1].split()[0]) for w in app.preview.readout_lines if w.count(":") and w.strip()[:2] in ("X:", "Y:", "Z:")}
+    shown = {w.split(":")[0].strip(): float(w.split(":")[1].split()[0])
+             for w in app.preview.readout_lines if w.count(":") and w.strip()[:2] in ("X:", "Y:", "Z:")}
     s = op.stat
-    agrees = all(abs(shown[c] - (s.actual_position[i] - s.tool_offset[i] - s.g5x_offset[i] - s.g92_offset[i])) < 2e-3 for i, c in enumerate("XYZ"))
-    print("FP-184: display is machine less offsets:", agrees, "system shown:", {x.split()[0] for x in app.preview.readout_lines if x.strip().startswith("G5")})
+    agrees = all(abs(shown[c] - (s.actual_position[i] - s.tool_offset[i] - s.g5x_offset[i] - s.g92_offset[i])) < 2e-3
+                 for i, c in enumerate("XYZ"))
+    print("FP-184: display is machine less offsets:", agrees, "system shown:",
+          {x.split()[0] for x in app.preview.readout_lines if x.strip().startswith("G5")})
 
 
 def reports(op):
@@ -429,11 +451,13 @@ def reports(op):
     sys.stderr = open(os.devnull, "w")
     op.root.tk.call("fails")
     op.wait(0.2)
-    print("FP-188: told:", "on purpose" in op.messages()[-1], "report named:", "report-" in op.messages()[-1], "the screen goes on:", op.stat.task_state == linuxcnc.STATE_ON)
+    print("FP-188: told:", "on purpose" in op.messages()[-1], "report named:", "report-" in op.messages()[-1],
+          "the screen goes on:", op.stat.task_state == linuxcnc.STATE_ON)
     with open(op.messages()[-1].split("Report: ")[1]) as f:
         report = f.read()
     events = report.split("the last ")[1].splitlines()
-    print("FP-188: report: stack", "on purpose" in report and "in fails" in report, "configuration hash", len(report.split("sha256 ")[1].split()[0]) == 64,
+    print("FP-188: report: stack", "on purpose" in report and "in fails" in report, "configuration hash",
+          len(report.split("sha256 ")[1].split()[0]) == 64,
           "events", 20 < int(events[0].split()[0]) <= 1000 and len(events) > 20, "last:", events[-1].split(" ", 1)[1])
 
 

@@ -83,7 +83,8 @@ def frozen(what, joint, down, up, early):
         x(*up)
     told = until(lambda: len(set((now := state())["said"][before:])) >= 3 and now, f"{what}: messages", 20)
     s.poll()
-    print(f"{what}: constant {constant}, goes on: rests {rests}, jogs {told['jogs']}, spindle {s.spindle[0]['direction']}", sorted(set(told["said"][before:])))
+    print(f"{what}: constant {constant}, goes on: rests {rests}, jogs {told['jogs']}, spindle "
+          f"{s.spindle[0]['direction']}", sorted(set(told["said"][before:])))
 
 
 until(lambda: hal.component_exists("axisui") and hal.component_is_ready("axisui"), "the screen")
@@ -93,7 +94,8 @@ for order in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
     c.state(order)
     c.wait_complete()
 state()
-window = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "AXIS.* on "], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
+window = subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "AXIS.* on "],
+                        stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
 x("windowfocus", window)
 frozen("joint, key", 0, ("keydown", "Right"), ("keyup", "Right"), True)
 c.home(-1)

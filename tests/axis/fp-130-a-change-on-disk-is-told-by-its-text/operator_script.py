@@ -24,7 +24,8 @@ def script(op):
         op.wait(wait)
         news = op.messages()[len(seen):]
         seen.extend(news)
-        return ["changed" if "on disk" in m else "gone" if "gone from" in m else "open it again" if "open it again" in m else m for m in news]
+        return ["changed" if "on disk" in m else "gone" if "gone from" in m else "open it again" if "open it again" in m
+                else m for m in news]
 
     def runs():
         op.key("r")
@@ -40,7 +41,8 @@ def script(op):
             os.utime(path, ns=times)
 
     def shown():
-        return dict(properties(app.shown_file, None, app.preview.program, app.settings, True, kept=app.kept))["SHA-256"].replace("\n", "") == digest
+        return dict(properties(app.shown_file, None, app.preview.program, app.settings, True,
+                               kept=app.kept))["SHA-256"].replace("\n", "") == digest
 
     print("task has the hash:", op.stat.program_hash == digest, "properties:", shown())
     os.utime(path, (1, 1))
@@ -49,7 +51,8 @@ def script(op):
     print("saved without a change:", told(), runs())
     before = os.stat(path)
     write(text.replace("Y20", "Y25"), (before.st_atime_ns, before.st_mtime_ns))
-    print("another text of the same length, with the same time:", told(), runs(), "properties of what is loaded:", shown())
+    print("another text of the same length, with the same time:", told(), runs(),
+          "properties of what is loaded:", shown())
     write(text)
     print("taken back:", told(), runs())
     write(text.replace("Y20", "Y25"))

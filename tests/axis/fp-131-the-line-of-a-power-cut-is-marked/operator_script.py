@@ -15,7 +15,8 @@ def script(op):
 
     def here():
         op.wait(1)
-        return op.stat.interp_state == linuxcnc.INTERP_IDLE, op.stat.spindle[0]["enabled"], [op.position(i) for i in range(3)]
+        return (op.stat.interp_state == linuxcnc.INTERP_IDLE, op.stat.spindle[0]["enabled"],
+                [op.position(i) for i in range(3)])
     before = here()
     op.answer(2)                 # Cancel
     op.root.tk.call("task_run_line")

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-# FP-132: every cut and many damages of the preferences and of the MDI history: the screen starts with what is left, the old file is kept.
+# FP-132: every cut and many damages of the preferences and of the MDI history: the screen starts with what is left,
+# the old file is kept.
 import random
 import tempfile
 from pathlib import Path
@@ -16,7 +17,8 @@ good.add_recent("/nc/part.ngc")
 good.putpref("grid_size", 0.5, float)
 whole = path.read_bytes()
 rng = random.Random(132)
-damages = [whole[:n] for n in range(0, len(whole), 3)] + [b"", b"\0" * 300, b"\xff\xfe\x00x", b"[DEFAULT\n", b"show_tool = maybe\n", b"[DEFAULT]\nshow_tool = maybe\nrecentfiles = [1,\n"]
+damages = [whole[:n] for n in range(0, len(whole), 3)] + [b"", b"\0" * 300, b"\xff\xfe\x00x", b"[DEFAULT\n",
+                                                          b"show_tool = maybe\n", b"[DEFAULT]\nshow_tool = maybe\nrecentfiles = [1,\n"]
 for _ in range(60):
     bad = bytearray(whole)
     for _ in range(rng.randrange(1, 9)):
@@ -29,7 +31,8 @@ for content in damages:
     path.write_bytes(content)
     p = Preferences(path)
     values = p.getpref("show_tool", True), p.getpref("grid_size", 0.0, float), p.recent()
-    if not isinstance(values[0], bool) or not isinstance(values[1], float) or any(not isinstance(f, str) for f in values[2]):
+    if (not isinstance(values[0], bool) or not isinstance(values[1], float)
+            or any(not isinstance(f, str) for f in values[2])):
         wrong.append((content, values))
     if p.damaged:
         told += 1

@@ -45,7 +45,8 @@ def script(op):
 
     def show(what):
         p = app.preview
-        print(f"{what}: drawn: {len(p.drawings)}, whole: {not p.program.aborted}, told: {op.messages()}, usable: {not app.loading and op.stat.task_state == linuxcnc.STATE_ON}")
+        print(f"{what}: drawn: {len(p.drawings)}, whole: {not p.program.aborted}, told: {op.messages()}, usable: "
+              f"{not app.loading and op.stat.task_state == linuxcnc.STATE_ON}")
 
     def run():
         """r is pressed; what the operator is asked, how far the machine went."""
@@ -61,7 +62,8 @@ def script(op):
     escape = lambda: op.root.event_generate("<KeyPress-Escape>")
     op.answer(2)
     open_while("part.ngc")
-    print("a process of its own:", app.loader.reading.child.pid != os.getpid(), "ended:", app.loader.reading.child.returncode)
+    print("a process of its own:", app.loader.reading.child.pid != os.getpid(), "ended:",
+          app.loader.reading.child.returncode)
     show("as usual")
     run()
 
@@ -95,17 +97,21 @@ def script(op):
         open_while(f"fork-{name}.ngc")
         show(f"a remap in Python that forks and {name}")
         with open(os.path.join(here, "forked")) as f:
-            print("  what it started is gone:", gone(int(f.read())), "by itself:", os.path.exists(os.path.join(here, "forked-ended")))
+            print("  what it started is gone:", gone(int(f.read())), "by itself:",
+                  os.path.exists(os.path.join(here, "forked-ended")))
     app.loader.megabytes = 10
     open_while("beyond.ngc")
     show("too much memory")
     run()
     app.loader.megabytes = 400
 
-    open_while("beyond.ngc", lambda pid: (os.kill(pid, signal.SIGSTOP), op.root.after(50, lambda: (escape(), os.kill(pid, signal.SIGCONT)))))
+    open_while("beyond.ngc", lambda pid: (os.kill(pid, signal.SIGSTOP),
+                                          op.root.after(50, lambda: (escape(), os.kill(pid, signal.SIGCONT)))))
     show("cancelled")
     run()
-    real, app.settings.real = app.settings.real, lambda names, default=0.0: 0.3 if names[1] == "PREVIEW_TIMEOUT" else real(names, default=default)
+    real, app.settings.real = (app.settings.real,
+                               lambda names, default=0.0: 0.3 if names[1] == "PREVIEW_TIMEOUT"
+                               else real(names, default=default))
     open_while("endless.ngc")
     show("its time is over")
     impatient.append(escape)
@@ -114,7 +120,8 @@ def script(op):
     run()
     run()
     opening.LONGEST_PREVIEW_S = longest
-    app.settings.real = lambda names, default=0.0: 1e-5 if names[1] == "GRAPHICAL_MAX_FILE_SIZE" else real(names, default=default)
+    app.settings.real = (lambda names, default=0.0: 1e-5 if names[1] == "GRAPHICAL_MAX_FILE_SIZE"
+                         else real(names, default=default))
     open_while("beyond.ngc")
     show("only a box")
     run()
@@ -128,10 +135,12 @@ def script(op):
     open_while("part.ngc", edited)
     op.wait(0.5)
     app.refresh_preview()
-    print("FP-130: edited while it is read: text", app.line_text(3), "preview to X", round(25.4 * app.preview.program.extents[1][0], 3),
+    print("FP-130: edited while it is read: text", app.line_text(3), "preview to X",
+          round(25.4 * app.preview.program.extents[1][0], 3),
           "told:", [m.split(" on disk")[0] for m in op.messages()])
     op.key("r", state=4)
-    print("FP-130: reloaded: text", app.line_text(3), "preview to X", round(25.4 * app.preview.program.extents[1][0], 3))
+    print("FP-130: reloaded: text", app.line_text(3), "preview to X",
+          round(25.4 * app.preview.program.extents[1][0], 3))
     open_while("part.ngc")
     op.key("F5")
     op.type("G10 L2 P1 X-3000")

@@ -20,7 +20,8 @@ loader = Loader(settings)
 
 def estimate(program, *options):
     state = [word for code in loader.init_codes(machine.poll()) for word in ("-i", code)]
-    words = subprocess.run(["kerf-time", "-ini", ini, *options, *state, program], capture_output=True, text=True).stdout.splitlines()[-1].split()
+    words = subprocess.run(["kerf-time", "-ini", ini, *options, *state, program], capture_output=True,
+                           text=True).stdout.splitlines()[-1].split()
     assert words[0] == "end", words
     return float(words[1])
 
@@ -41,10 +42,13 @@ for name, feed, rapid in [line.split() for line in os.environ["PROGRAMS"].splitl
     clock.sleep(3)      # the spindle of the program before comes to rest
     expected, taken = estimate(name, "-f", feed, "-r", rapid), run(name)
     error = abs(expected / taken - 1)
-    print(os.path.basename(name), feed, rapid, "within 2 %" if error < 0.02 else f"expected {expected:.3f}, took {taken:.3f}")
-for name, text in (("endless", "G21\nF600\no1 while [1]\nG1 X1\nG1 X0\no1 endwhile\nM2\n"), ("broken", "G21\nG1 X1 F60\nG1 X Y2\nM2\n")):
+    print(os.path.basename(name), feed, rapid,
+          "within 2 %" if error < 0.02 else f"expected {expected:.3f}, took {taken:.3f}")
+for name, text in (("endless", "G21\nF600\no1 while [1]\nG1 X1\nG1 X0\no1 endwhile\nM2\n"),
+                   ("broken", "G21\nG1 X1 F60\nG1 X Y2\nM2\n")):
     with open(f"{name}.ngc", "w") as f:
         f.write(text)
-    words = subprocess.run(["kerf-time", "-ini", ini, "-c", "0.3", f"{name}.ngc"], capture_output=True, text=True).stdout.splitlines()[-1].split(None, 2)
+    words = subprocess.run(["kerf-time", "-ini", ini, "-c", "0.3", f"{name}.ngc"], capture_output=True,
+                           text=True).stdout.splitlines()[-1].split(None, 2)
     print(name, words[0], words[2])
 loader.close()

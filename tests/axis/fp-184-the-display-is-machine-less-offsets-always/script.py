@@ -65,7 +65,8 @@ def script(op):
         good = good and all(abs(n * numbers[7] - v) < 1e-5 for n, v in zip(numbers[4:7], s.g92_offset))
         counts["parameters"] += 1
         if not good:
-            raise AssertionError(f"seed {SEED}, after {what}: parameters {numbers}, shown {shown}, G92 {s.g92_offset[:3]}")
+            raise AssertionError(f"seed {SEED}, after {what}: parameters {numbers}, shown {shown}, G92 "
+                                 f"{s.g92_offset[:3]}")
 
     def mdi(text):
         op.key("F5")
@@ -97,9 +98,11 @@ def script(op):
         op.home()
         follow("homing", 0.3)
     steps = [lambda: mdi(pick.choice(SYSTEMS))] * 4 + [lambda: mdi(f"G10 L20 P0 X{number()} Y{number()}")] * 3 + [
-        lambda: mdi(f"G10 L2 P{pick.randint(1, 9)} X{number()} Z{number()} R{pick.choice((0, 0, 30, 123.5))}"), lambda: mdi(f"G92 X{number()} Z{number()}"),
-        lambda: mdi(pick.choice(("G92.1", "G92.2", "G92.3"))), lambda: mdi(f"G43.1 Z{number()}"), lambda: mdi("G49"),
-        lambda: mdi(f"G53 G0 X{pick.uniform(5, 60):.3f} Y{pick.uniform(5, 60):.3f}"), lambda: mdi("T1 M6 G43"), program, program, restart, home_again]
+        lambda: mdi(f"G10 L2 P{pick.randint(1, 9)} X{number()} Z{number()} R{pick.choice((0, 0, 30, 123.5))}"),
+        lambda: mdi(f"G92 X{number()} Z{number()}"), lambda: mdi(pick.choice(("G92.1", "G92.2", "G92.3"))),
+        lambda: mdi(f"G43.1 Z{number()}"), lambda: mdi("G49"),
+        lambda: mdi(f"G53 G0 X{pick.uniform(5, 60):.3f} Y{pick.uniform(5, 60):.3f}"), lambda: mdi("T1 M6 G43"), program,
+        program, restart, home_again]
     follow("the start", 0.2)
     op.power_on()
     follow("power", 0.2)

@@ -41,7 +41,8 @@ def moves():
 
 
 until(screen, "the screen")
-until(lambda: subprocess.run(["axis-remote", "--ping"], stderr=subprocess.DEVNULL).returncode == 0, "the screen answers")
+until(lambda: subprocess.run(["axis-remote", "--ping"], stderr=subprocess.DEVNULL).returncode == 0,
+      "the screen answers")
 for state in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
     c.state(state)
     c.wait_complete()
@@ -67,8 +68,8 @@ os.kill(int(os.environ["SERVER"]), signal.SIGKILL)
 until(lambda: screen() == 0, "the screen is gone")
 print("without a screen runs:", moves())
 time.sleep(2)            # it tries to come back, in vain
-again = subprocess.Popen(["Xvfb", display, "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset", "-nolock"], stdin=subprocess.DEVNULL,
-                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+again = subprocess.Popen(["Xvfb", display, "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset", "-nolock"],
+                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 until(lambda: screen() not in (0, second), "a screen on the new server")
 print("the server is back: a new screen, runs:", moves(), "feed", s.feedrate)
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The screen in a Wayland desktop: shown, drawn with OpenGL, jogs end with the key, the focus or a stalled screen, a tab of another program."""
+"""The screen in a Wayland desktop: shown, drawn with OpenGL, jogs end with the key, the focus or a stalled screen, a
+tab of another program."""
 import os
 import subprocess
 import sys
@@ -14,7 +15,8 @@ ASK = dialogs.ask
 
 def depths(window):
     """Bits of a pixel of a window and those in it: with 32 a desktop shows what is behind."""
-    told = subprocess.run(["xwininfo", "-id", str(window), "-tree"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    told = subprocess.run(["xwininfo", "-id", str(window), "-tree"], stdout=subprocess.PIPE, text=True,
+                          check=True).stdout
     inside = [word for line in told.splitlines() for word in line.split()[:1] if word.startswith("0x")]
     found = set()
     for name in [str(window), *inside]:
@@ -45,8 +47,10 @@ def places(op):
         if window is None or not window.winfo_viewable():
             root.after(100, look)
             return
-        x, y = (a + b // 2 for a, b in ((window.winfo_rootx(), window.winfo_width()), (window.winfo_rooty(), window.winfo_height())))
-        seen.append(root.winfo_rootx() < x < root.winfo_rootx() + root.winfo_width() and root.winfo_rooty() < y < root.winfo_rooty() + root.winfo_height())
+        x, y = (a + b // 2 for a, b in ((window.winfo_rootx(), window.winfo_width()),
+                                        (window.winfo_rooty(), window.winfo_height())))
+        seen.append(root.winfo_rootx() < x < root.winfo_rootx() + root.winfo_width()
+                    and root.winfo_rooty() < y < root.winfo_rooty() + root.winfo_height())
         modal[-1].answer(None)
     root.after(400, look)
     dialogs.ask = ASK
@@ -94,7 +98,8 @@ def script(op):
         root.event_generate("<KeyPress-Right>")
         op.wait(0.03)
         speeds.add(round(op.stat.joint[0]["velocity"], 6))
-    print("the key repeats: one speed:", len(speeds - {0.0}) == 1, "commands:", op.stat.echo_serial_number - commands, "moves", moves(), end=" ")
+    print("the key repeats: one speed:", len(speeds - {0.0}) == 1, "commands:", op.stat.echo_serial_number - commands,
+          "moves", moves(), end=" ")
     op.let_go("Right")
     op.wait(0.5)
     print("let go: moves", moves())

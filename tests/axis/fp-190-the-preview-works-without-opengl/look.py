@@ -16,7 +16,8 @@ def script(op):
     p.picture.event_generate("<Button-1>", x=round(x), y=round(y))
     p.picture.event_generate("<ButtonRelease-1>", x=round(x), y=round(y))
     op.wait(0.1)
-    print("clicked in the picture: line", app.vars.highlight_line.get(), "| vertices of the line:", p.scene.selected_spans)
+    print("clicked in the picture: line", app.vars.highlight_line.get(), "| vertices of the line:",
+          p.scene.selected_spans)
     before = p.camera.size
     p.picture.event_generate("<Button-4>", x=10, y=10)
     op.wait(0.1)

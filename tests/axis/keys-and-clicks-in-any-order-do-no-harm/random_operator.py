@@ -19,26 +19,37 @@ from kerf import clock
 SEED = int(os.environ.get("SEED", "20"))
 STEPS = int(os.environ.get("STEPS", "350"))
 KILL = int(os.environ.get("KILL", "-1"))             # task is killed after so many steps
-PLAIN = ("F1 F2 F3 F4 F5 F7 F8 F9 F10 F11 F12 b o r t p s Escape l v d x y z a i I c grave 1 5 0 exclam at numbersign dollar comma period less "
-         "greater semicolon apostrophe Home End Return B R F minus equal Left Right Up Down Next Prior bracketleft KP_Left KP_8 KP_Home space "
+PLAIN = ("F1 F2 F3 F4 F5 F7 F8 F9 F10 F11 F12 b o r t p s Escape l v d x y z a i I c grave 1 5 0 exclam at numbersign "
+         "dollar comma period less "
+         "greater semicolon apostrophe Home End Return B R F minus equal Left Right Up Down Next Prior bracketleft "
+         "KP_Left KP_8 KP_Home space "
          "Delete q Tab r r r r t t p s s").split()
 JOGS = "Left Right Up Down Next Prior minus equal bracketright KP_6".split()
 CONTROL = "r s k Home End e space Tab m h x".split()
-BUTTONS = (".toolbar.machine_power .toolbar.reload .toolbar.program_run .toolbar.program_step .toolbar.program_pause .toolbar.program_stop "
-           ".toolbar.program_blockdelete .toolbar.program_optpause .toolbar.view_zoomin .toolbar.view_zoomout .toolbar.view_z .toolbar.view_p "
+BUTTONS = (".toolbar.machine_power .toolbar.reload .toolbar.program_run .toolbar.program_step .toolbar.program_pause "
+           ".toolbar.program_stop "
+           ".toolbar.program_blockdelete .toolbar.program_optpause .toolbar.view_zoomin .toolbar.view_zoomout "
+           ".toolbar.view_z .toolbar.view_p "
            ".toolbar.view_x .toolbar.view_y .toolbar.view_z2 .toolbar.view_y2 "
-           ".pane.top.tabs.fmanual.spindlef.ccw .pane.top.tabs.fmanual.spindlef.brake .pane.top.tabs.fmanual.axes.axisz "
+           ".pane.top.tabs.fmanual.spindlef.ccw .pane.top.tabs.fmanual.spindlef.brake "
+           ".pane.top.tabs.fmanual.axes.axisz "
            ".pane.top.tabs.fmanual.joints.joint0 .pane.top.tabs.fmanual.joints.joint1 "
-           ".toolbar.rotate .toolbar.clear_plot .pane.top.tabs.fmanual.jogf.zerohome.home .pane.top.tabs.fmanual.jogf.zerohome.zero "
-           ".pane.top.tabs.fmanual.jogf.zerohome.tooltouch .pane.top.tabs.fmanual.jogf.override .pane.top.tabs.fmanual.spindlef.cw "
-           ".pane.top.tabs.fmanual.spindlef.stop .pane.top.tabs.fmanual.mist .pane.top.tabs.fmanual.flood .pane.top.tabs.fmanual.axes.axisy "
+           ".toolbar.rotate .toolbar.clear_plot .pane.top.tabs.fmanual.jogf.zerohome.home "
+           ".pane.top.tabs.fmanual.jogf.zerohome.zero "
+           ".pane.top.tabs.fmanual.jogf.zerohome.tooltouch .pane.top.tabs.fmanual.jogf.override "
+           ".pane.top.tabs.fmanual.spindlef.cw "
+           ".pane.top.tabs.fmanual.spindlef.stop .pane.top.tabs.fmanual.mist .pane.top.tabs.fmanual.flood "
+           ".pane.top.tabs.fmanual.axes.axisy "
            ".pane.top.tabs.fmdi.go").split()
-MDI = ("G0 X1 Y1 Z40", "G1 X5 F500", "M3 S500", "M5", "G0 X", "G55", "G54", "T2 M6", "G43", "M2", "#1=[1/0]", "G91 G0 X1", "G90", "hello", "G92 X1",
-       "G92.1", "G4 P0.1")
-PULSES = [f"halui.{name}" for name in ("abort", "machine.off", "machine.on", "estop.activate", "estop.reset", "mode.mdi", "mode.manual", "mode.auto", "program.run",
-                                       "program.pause", "program.stop", "program.block-delete.on", "program.block-delete.off", "program.optional-stop.off")]
+MDI = ("G0 X1 Y1 Z40", "G1 X5 F500", "M3 S500", "M5", "G0 X", "G55", "G54", "T2 M6", "G43", "M2", "#1=[1/0]",
+       "G91 G0 X1", "G90", "hello", "G92 X1", "G92.1", "G4 P0.1")
+PULSES = [f"halui.{name}"
+          for name in ("abort", "machine.off", "machine.on", "estop.activate", "estop.reset", "mode.mdi", "mode.manual",
+                       "mode.auto", "program.run", "program.pause", "program.stop", "program.block-delete.on",
+                       "program.block-delete.off", "program.optional-stop.off")]
 SWITCHES = ("joint.0.neg-lim-sw-in", "joint.1.pos-lim-sw-in", "joint.2.home-sw-in")
-EVENTS = {"click": ("<Enter>", "<Button-1>", "<ButtonRelease-1>", "<Leave>"), "press": ("<Enter>", "<Button-1>"), "let go": ("<ButtonRelease-1>", "<Leave>"),
+EVENTS = {"click": ("<Enter>", "<Button-1>", "<ButtonRelease-1>", "<Leave>"), "press": ("<Enter>", "<Button-1>"),
+          "let go": ("<ButtonRelease-1>", "<Leave>"),
           "double": ("<Enter>", *("<Button-1>", "<ButtonRelease-1>") * 2, "<Leave>"),
           "triple": ("<Enter>", *("<Button-1>", "<ButtonRelease-1>") * 3),
           "wheel": ("<Enter>", "<Button-4>", "<Button-5>", "<Button-5>"),
@@ -49,10 +60,14 @@ MOVERS = re.compile("hold|MDI|mdi|control Home|program.run|resume|"
                     "(run|step|pause|home|go|history|jogplus|jogminus)$|menu (Run|Step|Resume|Home)")
 STARTERS = re.compile("F[0-9]+|MDI|mdi|key [rtspR]|program.run|resume|"
                       "(run|step|pause|cw|ccw|mist|flood|go|history|spindle[a-z]*)$|menu (Run|Step|Resume)")
-MOUSED = (".pane.top.tabs.fmanual.jogf.jog.jogplus .pane.top.tabs.fmanual.jogf.jog.jogminus .pane.top.tabs.fmdi.history .pane.bottom.t.text "
-          ".toolbar.machine_estop .toolbar.program_run .toolbar.program_step .toolbar.program_pause .toolbar.program_stop .toolbar.program_blockdelete "
-          ".pane.top.tabs.fmanual.spindlef.spindleplus .pane.top.tabs.fmanual.spindlef.spindleminus .pane.top.tabs.fmanual.spindlef.cw "
-          ".pane.top.tabs.fmanual.mist .pane.top.feedoverride.foscale .pane.top.jogspeed.s .pane.top.maxvel.s .pane.top.tabs.fmdi.go "
+MOUSED = (".pane.top.tabs.fmanual.jogf.jog.jogplus .pane.top.tabs.fmanual.jogf.jog.jogminus "
+          ".pane.top.tabs.fmdi.history .pane.bottom.t.text "
+          ".toolbar.machine_estop .toolbar.program_run .toolbar.program_step .toolbar.program_pause "
+          ".toolbar.program_stop .toolbar.program_blockdelete "
+          ".pane.top.tabs.fmanual.spindlef.spindleplus .pane.top.tabs.fmanual.spindlef.spindleminus "
+          ".pane.top.tabs.fmanual.spindlef.cw "
+          ".pane.top.tabs.fmanual.mist .pane.top.feedoverride.foscale .pane.top.jogspeed.s .pane.top.maxvel.s "
+          ".pane.top.tabs.fmdi.go "
           ".pane.top.rapidoverride.foscale .pane.top.spinoverride.foscale .pane.top.ajogspeed.s "
           ".pane.top.tabs.c .pane.top.right.c .pane.bottom.t.sb "
           ".pane.top.tabs.fmanual.jogf.jog.jogincr .pane.top.tabs.fmdi.waiting .info.position .toolbar.machine_power "
@@ -140,12 +155,15 @@ def script(op):
             other.program_open(rng.choice((sys.argv[-1], os.path.abspath("saved.ngc"), "/nowhere.ngc")))
             return
         if what == "client":
-            name, *arguments = rng.choice((("mode", linuxcnc.MODE_MDI), ("mode", linuxcnc.MODE_MANUAL), ("mode", linuxcnc.MODE_AUTO), ("mdi", "G0 X3"), ("abort",),
-                                           ("teleop_enable", 0), ("teleop_enable", 1), ("unhome", -1), ("feedrate", 0.5), ("set_block_delete", 0), ("state", linuxcnc.STATE_OFF)))
+            name, *arguments = rng.choice((("mode", linuxcnc.MODE_MDI), ("mode", linuxcnc.MODE_MANUAL),
+                                           ("mode", linuxcnc.MODE_AUTO), ("mdi", "G0 X3"), ("abort",),
+                                           ("teleop_enable", 0), ("teleop_enable", 1), ("unhome", -1),
+                                           ("feedrate", 0.5), ("set_block_delete", 0), ("state", linuxcnc.STATE_OFF)))
             log.append(f"client {name} {arguments}")
             getattr(other, name)(*arguments)
             return
-        pin, value = ("chain.in1", "0") if what == "chain" else (rng.choice(SWITCHES if what == "switch" else PULSES), "1")
+        pin, value = (("chain.in1", "0") if what == "chain"
+                      else (rng.choice(SWITCHES if what == "switch" else PULSES), "1"))
         log.append(f"{pin} {value}")
         try:
             hal.set_p(pin, value)
@@ -305,7 +323,8 @@ def script(op):
 
 
 def end_of_task(op, act, rng, log):
-    """Task is killed: the operator goes on for a while, then the screen ends by itself, with no traceback. Does not return."""
+    """Task is killed: the operator goes on for a while, then the screen ends by itself, with
+    no traceback. Does not return."""
     def end(*_):                 # also by the launcher, wherever the screen waits for task
         for text in Trouble.texts + op.trouble:
             print(text)
@@ -334,8 +353,8 @@ def end_of_task(op, act, rng, log):
 def menu_entries(root):
     """(menu, index, label) of what a click in a menu may do, without ending the screen."""
     found = []
-    for menu in (".menu.file", ".menu.machine", ".menu.view", ".menu.machine.home", ".menu.machine.unhome", ".menu.machine.clearoffset",
-                 ".menu.view.grid", ".menu.help"):
+    for menu in (".menu.file", ".menu.machine", ".menu.view", ".menu.machine.home", ".menu.machine.unhome",
+                 ".menu.machine.clearoffset", ".menu.view.grid", ".menu.help"):
         for i in range(int(root.tk.call(menu, "index", "end")) + 1):
             kind = str(root.tk.call(menu, "type", i))
             if kind in ("command", "checkbutton", "radiobutton"):

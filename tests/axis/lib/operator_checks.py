@@ -8,7 +8,8 @@ def still_jogging(op):
     """A joint that moves in manual mode although no key is held (homing and its like come to their own end)."""
     op.wait(1.5)
     s = op.stat
-    if s.task_mode != linuxcnc.MODE_MANUAL or s.task_state != linuxcnc.STATE_ON or any(j["homing"] for j in s.joint[:s.joints]):
+    if (s.task_mode != linuxcnc.MODE_MANUAL or s.task_state != linuxcnc.STATE_ON
+            or any(j["homing"] for j in s.joint[:s.joints])):
         return None
     if op.app.jogger.running:
         return f"jogs without an owner's key: {op.app.jogger.running}"
@@ -25,7 +26,8 @@ def outside_limits(op):
     """Homed joints beyond their soft limits."""
     s = op.stat
     for n, joint in enumerate(s.joint[:s.joints]):
-        if joint["homed"] and not joint["min_position_limit"] - 1e-3 <= s.joint_actual_position[n] <= joint["max_position_limit"] + 1e-3:
+        if (joint["homed"] and not joint["min_position_limit"]
+                - 1e-3 <= s.joint_actual_position[n] <= joint["max_position_limit"] + 1e-3):
             yield f"joint {n} at {s.joint_actual_position[n]}"
 
 

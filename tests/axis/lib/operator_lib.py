@@ -103,7 +103,8 @@ class Operator:
         self.wait(0.2)
 
     def idle(self):
-        self.until(lambda: self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.inpos, "end of the program", 600)
+        self.until(lambda: self.stat.interp_state == linuxcnc.INTERP_IDLE and self.stat.inpos,
+                   "end of the program", 600)
 
     def answer(self, index):
         """Dialogs are answered with this button, without a window."""

@@ -28,11 +28,13 @@ def variables(op, s):
     v = op.app.vars
     pairs = {"task_state": s.task_state, "task_mode": s.task_mode, "interp_state": s.interp_state,
              "spindledir": s.spindle[0]["direction"], "flood": bool(s.flood), "mist": bool(s.mist),
-             "brake": bool(s.spindle[0]["brake"]), "feedrate": round(100 * s.feedrate), "rapidrate": round(100 * s.rapidrate),
-             "spindlerate": round(100 * s.spindle[0]["override"]), "task_paused": int(s.task_paused),
-             "optional_stop": int(s.optional_stop), "block_delete": int(s.block_delete), "motion_mode": s.motion_mode,
-             "teleop_mode": int(s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP), "queued_mdi_commands": s.queued_mdi_commands,
-             "on_any_limit": int(any(s.limit)), "override_limits": int(s.joint[0]["override_limits"])}
+             "brake": bool(s.spindle[0]["brake"]), "feedrate": round(100 * s.feedrate),
+             "rapidrate": round(100 * s.rapidrate), "spindlerate": round(100 * s.spindle[0]["override"]),
+             "task_paused": int(s.task_paused), "optional_stop": int(s.optional_stop),
+             "block_delete": int(s.block_delete), "motion_mode": s.motion_mode,
+             "teleop_mode": int(s.motion_mode == linuxcnc.TRAJ_MODE_TELEOP),
+             "queued_mdi_commands": s.queued_mdi_commands, "on_any_limit": int(any(s.limit)),
+             "override_limits": int(s.joint[0]["override_limits"])}
     for name, value in pairs.items():
         if getattr(v, name).get() != value:
             yield f"{name}: screen {getattr(v, name).get()!r}, machine {value!r}"

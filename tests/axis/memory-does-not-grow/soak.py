@@ -14,7 +14,8 @@ LIMIT_KB = 3000              # of growth in the second half
 
 def report(hour, found):
     with open(os.environ.get("SOAK_REPORT", "/dev/stderr"), "a") as f:
-        print(f"{hour:6.2f} h:", *(f"{name} {kb} kB {files} files;" for name, (kb, files) in sorted(found.items())), file=f)
+        print(f"{hour:6.2f} h:", *(f"{name} {kb} kB {files} files;" for name, (kb, files) in sorted(found.items())),
+              file=f)
 
 
 def script(op):
@@ -46,7 +47,9 @@ def script(op):
             grown[name] = [s.get(name) for s in samples]
     if len(samples[-1]) > len(samples[LOOKS // 2]) + 2:
         grown["processes"] = [len(s) for s in samples]
-    print("processes watched, the X server among them:", len(samples[-1]) >= 6 and any(name.startswith("Xvfb") for name in samples[-1]), "grown in the second half:", grown, file=out)
+    print("processes watched, the X server among them:",
+          len(samples[-1]) >= 6 and any(name.startswith("Xvfb") for name in samples[-1]), "grown in the second half:",
+          grown, file=out)
 
 
 lib.run(script)

@@ -35,16 +35,21 @@ def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, tcl = op.app, op.root.tk
     full = "mill" in app.settings.ini_path
-    for name in ("file", "machine", "machine.home", "machine.unhome", "machine.clearoffset", "view", "view.grid", "help"):
+    for name in ("file", "machine", "machine.home", "machine.unhome", "machine.clearoffset", "view",
+                 "view.grid", "help"):
         if full or name in ("machine.home", "machine.unhome", "view"):
             print(f"{name}:", entries(tcl, ".menu." + name))
-    print("tool bar:", *[w.split(".")[-1] for w in map(str, tcl.splitlist(tcl.call("pack", "slaves", ".toolbar"))) if "rule" not in w])
+    print("tool bar:", *[w.split(".")[-1]
+                         for w in map(str, tcl.splitlist(tcl.call("pack", "slaves", ".toolbar"))) if "rule" not in w])
     print("axes:", *[c for c in "xyzabcuvw" if tcl.call("winfo", "manager", f".pane.top.tabs.fmanual.axes.axis{c}")],
           "joints:", *[j for j in range(16) if tcl.call("winfo", "manager", f".pane.top.tabs.fmanual.joints.joint{j}")],
-          "button:", app.widgets.homebutton.cget("text"), "angular slider:", bool(tcl.call("winfo", "manager", ".pane.top.ajogspeed")))
-    print("view:", app.vars.view_type.get(), "jog order:", "".join(app.settings.jog_order()), "inverted:", app.jog_invert)
+          "button:", app.widgets.homebutton.cget("text"), "angular slider:",
+          bool(tcl.call("winfo", "manager", ".pane.top.ajogspeed")))
+    print("view:", app.vars.view_type.get(), "jog order:", "".join(app.settings.jog_order()), "inverted:",
+          app.jog_invert)
     if full:
-        print("missing variables:", [n for n in VARIABLES if not hasattr(app.vars, n) or not int(tcl.eval(f"info exists ::{n}"))])
+        print("missing variables:",
+              [n for n in VARIABLES if not hasattr(app.vars, n) or not int(tcl.eval(f"info exists ::{n}"))])
         print("missing globals:", [n for n in GLOBALS if not int(tcl.eval(f"info exists ::{n}"))])
         print("missing names:", [n for n in NAMES if n not in app.user])
         print("preferences:", dict(sorted(app.prefs.values.defaults().items())))

@@ -39,12 +39,15 @@ def script(op):
     tabs = made[0]
     print(op.messages(), file=out)
     names = app.root.tk.splitlist(app.root.tk.call(".pane.top.right", "pages"))
-    print([str(n) for n in names if str(n).startswith("ngcgui")], [str(app.root.tk.call(".pane.top.right", "itemcget", n, "-text")) for n in names], file=out)
+    print([str(n) for n in names if str(n).startswith("ngcgui")],
+          [str(app.root.tk.call(".pane.top.right", "itemcget", n, "-text")) for n in names], file=out)
     line, hop, custom = tabs.pages
     print([(r[0].name, r[2].get()) for r in line.rows], custom.status.cget("text"), file=out)
-    fonts = {tkinter.font.Font(app.root, font=str(font_of(app, widget))).actual("family") for widget in below(line.frame) if font_of(app, widget)}
+    fonts = {tkinter.font.Font(app.root, font=str(font_of(app, widget))).actual("family")
+             for widget in below(line.frame) if font_of(app, widget)}
     print("fonts:", fonts, "elsewhere:", tkinter.font.nametofont("TkDefaultFont", app.root).actual("family"), file=out)
-    print("buttons:", [text for text in line.buttons if not text[0].isupper()], "autosend:", line.autosend.get(), "post:", Path(line.o.postamble).parent.name, file=out)
+    print("buttons:", [text for text in line.buttons if not text[0].isupper()], "autosend:", line.autosend.get(),
+          "post:", Path(line.o.postamble).parent.name, file=out)
     op.power_on()
     op.home()
     app.root.tk.call(".pane.top.right", "raise", "ngcgui1")
@@ -59,7 +62,8 @@ def script(op):
     line.buttons["SendFileToAxis"].invoke()
     op.until(lambda: app.loaded_file.endswith("auto.ngc") and not app.loading, "the program is opened")
     op.wait(0.3)
-    print("frame:", Path(app.loaded_file).read_text().split("\n")[:2], Path(app.loaded_file).read_text().split("\n")[-5:], file=out)
+    print("frame:", Path(app.loaded_file).read_text().split("\n")[:2],
+          Path(app.loaded_file).read_text().split("\n")[-5:], file=out)
     print(Path(app.loaded_file).name, hop.program.features, file=out)
     text = Path(app.loaded_file).read_text()
     print([l for l in text.splitlines() if "call" in l or "features" in l], file=out)
@@ -82,11 +86,14 @@ def script(op):
     tabs.words.append("noremove")
     print("a new one:", [text for text in tabs.add("line.ngc").buttons if not text[0].isupper()], file=out)
     op.wait(0.2)
-    print([p.name for p in tabs.pages], "cut off:", [t for t in room.troubles(op.root) if str(line.frame) in t], file=out)
+    print([p.name for p in tabs.pages], "cut off:", [t for t in room.troubles(op.root) if str(line.frame) in t],
+          file=out)
     tabs.pages[3].buttons["\N{LEFTWARDS ARROW} move"].invoke()
     line.buttons["remove"].invoke()
     op.wait(0.2)
-    print([p.name for p in tabs.pages], [str(n) for n in app.root.tk.splitlist(app.root.tk.call(".pane.top.right", "pages")) if "ngcgui" in str(n)], file=out)
+    print([p.name for p in tabs.pages],
+          [str(n) for n in app.root.tk.splitlist(app.root.tk.call(".pane.top.right", "pages")) if "ngcgui" in str(n)],
+          file=out)
     out.flush()
 
 

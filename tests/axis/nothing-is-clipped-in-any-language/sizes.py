@@ -1,7 +1,9 @@
 #!/usr/bin/python3
-"""Everything on the screen has room and can be read: themes, sizes, touch, every page, menu and dialog (tests/lib/room.py).
+"""Everything on the screen has room and can be read: themes, sizes, touch, every page, menu and dialog
+(tests/lib/room.py).
 
-LOOKS: LANGUAGE:SCALE:THEME[:touch] words, the language is that of the process. TONGUE=long: every text 40 % longer. PICTURES=FOLDER: pictures, too.
+LOOKS: LANGUAGE:SCALE:THEME[:touch] words, the language is that of the process. TONGUE=long: every text 40 % longer.
+PICTURES=FOLDER: pictures, too.
 """
 import os
 import sys
@@ -59,15 +61,22 @@ class Looker:
 DIALOGS = {
     "close": lambda op: op.app.confirm_close(),
     "touch-off": lambda op: op.root.tk.call("touch_off_system"),
-    "mistyped": lambda op: dialogs.Touchoff(op.root, op.app.translate("Touch Off (system)"), "X", "1 [", "mm", Checker(op.app.settings, "none.var"), "P0", None, op.app.translate).wait(),
+    "mistyped": lambda op: dialogs.Touchoff(op.root, op.app.translate("Touch Off (system)"), "X", "1 [", "mm",
+                                            Checker(op.app.settings, "none.var"), "P0", None, op.app.translate).wait(),
     "grid": lambda op: op.app.custom_grid(),
     "properties": lambda op: op.root.tk.call("gcode_properties"),
     "rehome": lambda op: op.root.tk.call("home_all_joints"),
-    "limits": lambda op: dialogs.ask(op.root, op.app.translate("Program exceeds machine limits"), "\n".join(LIMITS), "warning", 1,
+    "limits": lambda op: dialogs.ask(op.root, op.app.translate("Program exceeds machine limits"),
+                                     "\n".join(LIMITS), "warning", 1,
                                      *map(op.app.translate, ("Re-Check", "Run Anyway", "Cancel")), escape=2),
-    "restore": lambda op: dialogs.ask(op.root, op.app.translate("Run from line %d") % 80, op.app.translate("Before the program goes on at line %d, this is done:") % 80, "warning", 2,
-                                      *map(op.app.translate, ("Restore and run", "Run without", "Cancel")), extra="G0 X1\n" * 40, escape=2),
-    "read-only": lambda op: dialogs.ask(op.root, op.app.translate("File not Writable:") + "part.ngc", op.app.translate("The file cannot be changed: open it to read, or save a copy first?"),
+    "restore": lambda op: dialogs.ask(op.root, op.app.translate("Run from line %d") % 80,
+                                      op.app.translate("Before the program goes on at line %d, this is done:") % 80,
+                                      "warning", 2, *map(op.app.translate,
+                                                         ("Restore and run", "Run without", "Cancel")),
+                                                         extra="G0 X1\n" * 40, escape=2),
+    "read-only": lambda op: dialogs.ask(op.root, op.app.translate("File not Writable:") + "part.ngc",
+                                        op.app.translate("The file cannot be changed: open it to read, or "
+                                                         "save a copy first?"),
                                         "warning", 0, *map(op.app.translate, ("Edit-readonly", "Save", "Cancel"))),
 }
 LIMITS = [f"Program exceeds machine maximum on axis {c}" for c in "XYZABCUVW"] * 3
@@ -88,14 +97,17 @@ def same_letters(tcl, menu):
 
 
 def many_messages(op, looker, name, touch):
-    """More than there is room for, one without an end: the newest is seen, the tool bar and the readout are, and all can be closed."""
+    """More than there is room for, one without an end: the newest is seen, the tool bar and the readout are, and all
+    can be closed."""
     shown, root = op.app.notifications, op.root
     for n in range(50):
-        shown.add("error", f"{n}: " + op.app.translate("Program exceeds machine maximum on axis %s") % "X" * (1 + 10 * (n % 3)) + " " + "x" * 40)
+        shown.add("error", f"{n}: " + op.app.translate("Program exceeds machine maximum on axis %s") % "X"
+                  * (1 + 10 * (n % 3)) + " " + "x" * 40)
     shown.add("info", "a line without an end " * 200)
     looker.look(name + "-many-messages", touch)
     frame = shown.frame
-    if frame.winfo_rooty() < root.winfo_rooty() + root.winfo_height() * 0.4 or frame.winfo_width() > root.winfo_width() * 0.45:
+    if (frame.winfo_rooty() < root.winfo_rooty() + root.winfo_height() * 0.4
+            or frame.winfo_width() > root.winfo_width() * 0.45):
         print("   ", name, "messages over the readout:", frame.winfo_geometry(), root.winfo_geometry())
     if not shown.shown[-1][1].winfo_viewable():
         print("   ", name, "the newest message is not in sight")
@@ -113,7 +125,8 @@ def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     dialogs.ask = ASK
     app, looker = op.app, Looker(op)
-    print("screen:", op.root.winfo_screenheight(), "title of the left tab:", op.root.tk.call(".pane.top.tabs", "itemcget", "manual", "-text"))
+    print("screen:", op.root.winfo_screenheight(), "title of the left tab:",
+          op.root.tk.call(".pane.top.tabs", "itemcget", "manual", "-text"))
     op.power_on()
     op.home()
     for line in same_letters(op.root.tk, ".menu"):
@@ -136,10 +149,13 @@ def script(op):
             looker.look(name + window.replace(".", "-"))
             op.root.tk.call("wm", "withdraw", window)
         for kind in ("error", "info"):
-            app.notifications.add(kind, app.translate("Before the program goes on at line %d, this is done:") % 17 + " /home/somebody/linuxcnc/nc_files/a-part-with-a-long-name.ngc")
+            app.notifications.add(kind,
+                                  app.translate("Before the program goes on at line %d, this is done:") % 17
+                                  + " /home/somebody/linuxcnc/nc_files/a-part-with-a-long-name.ngc")
         looker.look(name + "-messages")
         many_messages(op, looker, name, TOUCH_PX if roomy else 0)
-        print(words, "letters", app.letters_px(), "icon", app.icons.get("run").width(), "background", app.widgets.homebutton.cget("background") == app.colours["face"])
+        print(words, "letters", app.letters_px(), "icon", app.icons.get("run").width(), "background",
+              app.widgets.homebutton.cget("background") == app.colours["face"])
 
 
 lib.run(script)

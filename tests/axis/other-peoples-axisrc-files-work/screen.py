@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-# Runs the files as ~/.axisrc, one after the other on one screen (the first by the screen itself), and looks at what they did.
+# Runs the files as ~/.axisrc, one after the other on one screen (the first by the screen
+# itself), and looks at what they did.
 import glob
 import os
 import sys
@@ -18,7 +19,8 @@ def script(op):
     dialogs.ask = lambda root, title, text, icon, default, *buttons, extra=None, **more: told.append(f"{title}: {extra.splitlines()[-1]}") or 0
     op.power_on()
     op.home()
-    print("00 pins:", sorted(p["NAME"].split(".")[1] for p in hal.get_info_pins() if p["NAME"].startswith("axisui.") and "jog" not in p["NAME"]
+    print("00 pins:", sorted(p["NAME"].split(".")[1]
+                             for p in hal.get_info_pins() if p["NAME"].startswith("axisui.") and "jog" not in p["NAME"]
                              and "notif" not in p["NAME"]))
     app.command.mode(linuxcnc.MODE_AUTO)
     app.command.auto(linuxcnc.AUTO_RUN, 0)
@@ -30,7 +32,8 @@ def script(op):
     own = app.settings.find
 
     for path in sorted(glob.glob(os.path.join(os.environ["FILES"], "[01]*.py")))[1:]:
-        app.settings.find = lambda section, name, default=None, p=path: p if name == "USER_COMMAND_FILE" else own(section, name, default)
+        app.settings.find = (lambda section, name, default=None, p=path: p if name == "USER_COMMAND_FILE"
+                             else own(section, name, default))
         app.run_user_file()
         app.fill_windows()
         op.wait(0.2)
@@ -43,7 +46,8 @@ def script(op):
 
 
 def fonts(op, app, tcl):
-    print(str(tcl.call(".pane.top.right", "raise")), tcl.call(".pane.bottom.t.text", "cget", "-height"), app.widgets.homebutton.cget("text"))
+    print(str(tcl.call(".pane.top.right", "raise")), tcl.call(".pane.bottom.t.text", "cget", "-height"),
+          app.widgets.homebutton.cget("text"))
 
 
 def keys(op, app, tcl):
@@ -55,20 +59,23 @@ def keys(op, app, tcl):
     op.idle()
     at = [op.position(i) for i in (0, 1)]
     op.key("F6", state=1)
-    print(at, "view:", app.vars.view_type.get(), "in the help:", sum("F6" in str(w.cget("text")) for w in app.widgets.help_window.winfo_children()))
+    print(at, "view:", app.vars.view_type.get(), "in the help:",
+          sum("F6" in str(w.cget("text")) for w in app.widgets.help_window.winfo_children()))
 
 
 def hidden(op, app, tcl):
-    names = (".pane.top.tabs.fmanual.flood", ".pane.top.tabs.fmanual.axes.axisz", ".pane.top.rapidoverride", ".toolbar.view_p")
-    print([str(tcl.call("winfo", "manager", n)) for n in names], str(tcl.call(".pane.top.tabs", "itemcget", "mdi", "-text")))
+    names = (".pane.top.tabs.fmanual.flood", ".pane.top.tabs.fmanual.axes.axisz", ".pane.top.rapidoverride",
+             ".toolbar.view_p")
+    print([str(tcl.call("winfo", "manager", n)) for n in names],
+          str(tcl.call(".pane.top.tabs", "itemcget", "mdi", "-text")))
 
 
 def live(op, app, tcl):
     app.spindle(0)
     app.command.spindle(linuxcnc.SPINDLE_FORWARD, 500)
     op.wait(0.3)
-    print(str(tcl.call(".lamp", "cget", "-text")), [m for m in op.messages() if "spindle" in m], "file:", os.path.basename(app.user["loaded_file"]),
-          "tool:", app.user["current_tool"])
+    print(str(tcl.call(".lamp", "cget", "-text")), [m for m in op.messages() if "spindle" in m], "file:",
+          os.path.basename(app.user["loaded_file"]), "tool:", app.user["current_tool"])
     app.spindle(0)
 
 
@@ -80,8 +87,10 @@ def menu(op, app, tcl):
 
 def defaults(op, app, tcl):
     v = app.vars
-    print(v.show_machine_limits.get(), v.metric.get(), v.coord_type.get(), v.view_type.get(), round(op.stat.feedrate, 2), round(op.stat.rapidrate, 2),
-          op.stat.optional_stop, v.touch_off_system.get(), v.jogincrement.get(), v.grid_size.get(), app.logger.get_colors()[0], app.user["own"])
+    print(v.show_machine_limits.get(), v.metric.get(), v.coord_type.get(), v.view_type.get(),
+          round(op.stat.feedrate, 2), round(op.stat.rapidrate, 2),
+          op.stat.optional_stop, v.touch_off_system.get(), v.jogincrement.get(), v.grid_size.get(),
+          app.logger.get_colors()[0], app.user["own"])
     v.metric.set(1)
     tcl.call("redraw")
     app.continuous()
@@ -96,7 +105,8 @@ def touchoff(op, app, tcl):
 
 def tcl_page(op, app, tcl):
     op.key("F6")
-    print(str(tcl.call(".pane.top.right.fnotes.t", "get", "1.0", "end")).split(), app.user["units"], str(tcl.call(".pane.top.right", "raise")))
+    print(str(tcl.call(".pane.top.right.fnotes.t", "get", "1.0", "end")).split(), app.user["units"],
+          str(tcl.call(".pane.top.right", "raise")))
 
 
 def pad(op, app, tcl):
@@ -119,5 +129,6 @@ def mistake(op, app, tcl):
     print([m for m in op.messages() if "mistake" in m])
 
 
-looks = {"01": fonts, "02": keys, "03": hidden, "04": live, "05": menu, "06": defaults, "07": touchoff, "08": tcl_page, "09": pad, "10": mistake}
+looks = {"01": fonts, "02": keys, "03": hidden, "04": live, "05": menu, "06": defaults, "07": touchoff, "08": tcl_page,
+         "09": pad, "10": mistake}
 lib.run(script)

@@ -23,8 +23,11 @@ def script(op):
     op.wait(0.3)
     print("messages:", [m.splitlines()[0].split("/")[0] for m in op.messages()])
     print("pages:", *map(str, tcl.splitlist(tcl.call(".pane.top.right", "pages"))),
-          "|", *[tcl.call(".pane.top.right", "itemcget", p, "-text") for p in tcl.splitlist(tcl.call(".pane.top.right", "pages"))])
-    print("menu has the panel:", any("PyVCP" in str(tcl.call(".menu.view", "entrycget", i, "-label")) for i in range(int(tcl.call(".menu.view", "index", "end")) + 1)
+          "|", *[tcl.call(".pane.top.right", "itemcget", p, "-text")
+                 for p in tcl.splitlist(tcl.call(".pane.top.right", "pages"))])
+    print("menu has the panel:",
+          any("PyVCP" in str(tcl.call(".menu.view", "entrycget", i, "-label"))
+              for i in range(int(tcl.call(".menu.view", "index", "end")) + 1)
                                      if str(tcl.call(".menu.view", "type", i)) != "separator"))
     if app.panel is None:
         print("no panel; the screen works:", op.enabled(".toolbar.machine_power") or True)
@@ -43,12 +46,14 @@ def script(op):
     end = time.monotonic() + 60          # a process of the outside world: real time
     while not (os.path.exists(xid) and os.path.getsize(xid) > 1) and time.monotonic() < end:
         time.sleep(0.02)
-    print("the guest got the window's id:", int(open(xid).read()) == app.x_window(f"{tcl.call('.pane.top.right', 'getframe', 'user_1')}.container"))
+    print("the guest got the window's id:",
+          int(open(xid).read()) == app.x_window(f"{tcl.call('.pane.top.right', 'getframe', 'user_1')}.container"))
     print("forwards events to:", int(os.environ["AXIS_FORWARD_EVENTS_TO"]) == op.root.winfo_id())
     with open(os.path.join(os.path.dirname(xid), "words")) as f:
         words = f.read().split(None, 4)
     grid = dict(zip(*[iter(map(str, tcl.splitlist(tcl.call("grid", "info", ".gladevcp"))))] * 2))
-    print("GladeVCP: column", grid["-column"], "row", grid["-row"], *words[:4], int(words[4].split()[0]) == app.x_window(".gladevcp"), words[4].split(None, 1)[1].strip(),
+    print("GladeVCP: column", grid["-column"], "row", grid["-row"], *words[:4],
+          int(words[4].split()[0]) == app.x_window(".gladevcp"), words[4].split(None, 1)[1].strip(),
           "| linked by", halcmd("-s", "show", "pin", "side.level").split()[-1])
     op.key("F4")
     op.key("F4")

@@ -30,7 +30,8 @@ def furthest(path, kept):
     return worst
 
 
-wave = [f"G1 X{(i % 400) * 0.5 if i // 400 % 2 == 0 else 200 - (i % 400) * 0.5:.3f} Y{i // 400 * 0.5:.3f} Z{math.sin(i / 40):.3f}" for i in range(120000)]
+wave = [f"G1 X{(i % 400) * 0.5 if i // 400 % 2 == 0 else 200 - (i % 400) * 0.5:.3f} Y{i // 400 * 0.5:.3f} "
+        f"Z{math.sin(i / 40):.3f}" for i in range(120000)]
 program = load(write("wave.ngc", wave))
 drawing = Drawing(program.positions, program.kinds, program.lines)
 path = np.array(drawing.vertices)
@@ -72,15 +73,18 @@ print("zigzag:", chosen[3] <= 6000, "exact:", chosen[4])
 
 # kept coarser beyond a number of vertices: extents, lengths and times stay exact
 thin = load("wave.ngc", max_vertices=10000)
-print("thinned:", thin.thinned, "vertices:", thin.n_vertices <= 10000, "moves:", thin.n_moves == program.n_moves, "extents:", thin.extents == program.extents,
-      "lengths:", math.isclose(thin.cutting_length, program.cutting_length), "last vertex:", tuple(memoryview(thin.positions)[thin.n_vertices - 1, i] for i in range(2)) ==
+print("thinned:", thin.thinned, "vertices:", thin.n_vertices <= 10000, "moves:", thin.n_moves == program.n_moves,
+      "extents:", thin.extents == program.extents, "lengths:",
+      math.isclose(thin.cutting_length, program.cutting_length), "last vertex:",
+      tuple(memoryview(thin.positions)[thin.n_vertices - 1, i] for i in range(2)) ==
       tuple(memoryview(program.positions)[program.n_vertices - 1, i] for i in range(2)))
 program.release_path()
 print("released:", program.n_vertices, "moves:", program.n_moves > 0)
 
 # an endless program ends when it is told to; what was read is there
 began = time.monotonic()
-endless = load(write("endless.ngc", ["o1 while [1]", "G1 X1", "G1 X0", "o1 endwhile"]), progress=lambda line: True, max_vertices=100000)
+endless = load(write("endless.ngc", ["o1 while [1]", "G1 X1", "G1 X0", "o1 endwhile"]), progress=lambda line: True,
+               max_vertices=100000)
 print("endless: stopped:", endless.aborted, "moves:", endless.n_moves > 100)
 
 # heights of a foam cutter's planes
@@ -95,14 +99,17 @@ print("no number:", foam.foam_z, "inches:", foam.foam_w)
 turn = load(write("turn.ngc", ["G0 Y20", "G1 A90"]))
 d = Drawing(turn.positions, turn.kinds, turn.lines, geometry="XYZ!A")
 p = np.array(d.vertices) * 25.4
-print("rotary: vertices:", len(p), "end:", [round(float(abs(v)), 3) for v in p[-1]], "radius kept:", bool(np.allclose(np.hypot(p[-9:, 1], p[-9:, 2]), 20)))
-for wrong in ((np.zeros((3, 9)), turn.kinds, turn.lines), (np.zeros((3, 9), np.float32), np.zeros(2, np.uint8), np.zeros(3, np.int32))):
+print("rotary: vertices:", len(p), "end:", [round(float(abs(v)), 3) for v in p[-1]], "radius kept:",
+      bool(np.allclose(np.hypot(p[-9:, 1], p[-9:, 2]), 20)))
+for wrong in ((np.zeros((3, 9)), turn.kinds, turn.lines),
+              (np.zeros((3, 9), np.float32), np.zeros(2, np.uint8), np.zeros(3, np.int32))):
     try:
         Drawing(*wrong)
     except ValueError as e:
         print("refused:", e)
 
-# the live plot: drawn in parts as it grows, the picture is that of the whole; a machine that has run for hours costs no more than its end
+# the live plot: drawn in parts as it grows, the picture is that of the whole; a machine that has run for hours costs
+# no more than its end
 records = np.zeros(1000, PLOT_RECORD)
 records["p"] = np.random.default_rng(1).uniform(-1, 1, (1000, 3))
 records["q"] = records["p"] * 0.5
@@ -115,4 +122,5 @@ for second in (False, True):
         parts.draw_plot(records.tobytes(), view, first, last, second)
     # what is drawn later lies above: with a second path only the coloured pixels are compared
     shown = [np.frombuffer(r.ppm(), np.uint8)[15:].reshape(-1, 3).any(axis=1) for r in (whole, parts)]
-    print("plot in parts:", (shown[0] == shown[1]).all() and shown[0].sum() > 1000, "" if second else whole.ppm() == parts.ppm())
+    print("plot in parts:", (shown[0] == shown[1]).all() and shown[0].sum() > 1000,
+          "" if second else whole.ppm() == parts.ppm())

@@ -119,8 +119,8 @@ def overlaps(name, composer):
 
 
 def difference(a, b):
-    """Pixels of each picture that have none of about their colour in the other one, two pixels around: a driver may draw
-    a line a little beside."""
+    """Pixels of each picture that have none of about their colour in the other one, two pixels around: a driver may
+    draw a line a little beside."""
     a, b = (np.asarray(x.convert("RGB"), int) for x in (a, b))
     return max(int(unmatched(a, b).sum()), int(unmatched(b, a).sum()))
 

@@ -13,8 +13,10 @@ from operator_checks import still_jogging, work
 from tkinter import filedialog
 
 SEED, STEPS = int(os.environ.get("SEED", "7")), int(os.environ.get("STEPS", "70"))
-KEYS = ("F3 F4 F5 F7 F8 F9 F10 F11 b o r t p s Escape v d x y z i c 1 5 0 exclam at numbersign comma period semicolon Home End Return minus "
-        "shift+Left ctrl+r ctrl+k ctrl+Home shift+Home ctrl+space ctrl+Tab alt+p space Tab Left Right Up Down Next KP_Left KP_8 r s t p").split()
+KEYS = ("F3 F4 F5 F7 F8 F9 F10 F11 b o r t p s Escape v d x y z i c 1 5 0 exclam at numbersign comma period semicolon "
+        "Home End Return minus "
+        "shift+Left ctrl+r ctrl+k ctrl+Home shift+Home ctrl+space ctrl+Tab alt+p space Tab Left Right Up Down Next "
+        "KP_Left KP_8 r s t p").split()
 HELD = "Left Right Up Down Next Prior minus equal KP_6 shift Shift_R".split()
 
 
@@ -23,12 +25,14 @@ def x(*words):
 
 
 def fields(op):
-    """Panels of users, made by Python or by Tcl: what is typed in a field is not for the machine; Escape and a button's keys are."""
+    """Panels of users, made by Python or by Tcl: what is typed in a field is not for the machine; Escape and a
+    button's keys are."""
     app, tcl, told = op.app, op.root.tk, []
     panel = lib.tk.Frame(op.root, name="panel")
     panel.grid(row=0, column=4, rowspan=6)
     kinds = "entry spinbox text ttk::entry ttk::spinbox ttk::combobox listbox button".split()
-    fields = {f"Tcl {kind}": tcl.call(kind, f".panel.{kind.replace(':', '')}", *(("-width", 8, "-height", 2) if kind == "text" else ())) for kind in kinds}
+    fields = {f"Tcl {kind}": tcl.call(kind, f".panel.{kind.replace(':', '')}",
+                                      *(("-width", 8, "-height", 2) if kind == "text" else ())) for kind in kinds}
     for kind in "Entry Spinbox Text".split():
         fields[f"tkinter {kind}"] = str(getattr(lib.tk, kind)(panel, width=8))
     tcl.call("pack", *fields.values())
@@ -44,7 +48,8 @@ def fields(op):
         x("type", "5rx-")
         x("key", "Left", "Escape")
         op.wait(0.5)
-        print(f"typed in {name}: override", app.vars.feedrate.get(), "moves", op.stat.actual_position != before, "Escape", told)
+        print(f"typed in {name}: override", app.vars.feedrate.get(), "moves", op.stat.actual_position != before,
+              "Escape", told)
         app.command.abort()
         op.wait(0.3)
     tcl.createcommand("task_stop", app.guarded(stop))
@@ -80,8 +85,10 @@ def script(op):
     op.until(app.all_homed, "homing by ctrl+Home")
     op.wait(0.2)
     print("on and homed:", op.stat.task_state == linuxcnc.STATE_ON)
-    for name, down, up in (("Right", ["Right"], ["Right"]), ("shift and Left, shift first", ["shift", "Left"], ["shift", "Left"]),
-                           ("two axes", ["Up", "Right"], ["Right", "Up"]), ("keypad", ["KP_Left"], ["KP_Left"]), ("minus", ["minus"], ["minus"])):
+    for name, down, up in (("Right", ["Right"], ["Right"]),
+                           ("shift and Left, shift first", ["shift", "Left"], ["shift", "Left"]),
+                           ("two axes", ["Up", "Right"], ["Right", "Up"]), ("keypad", ["KP_Left"], ["KP_Left"]),
+                           ("minus", ["minus"], ["minus"])):
         for key in down:
             x("keydown", key)
         moving = moves()

@@ -27,17 +27,21 @@ def foam(op):
     last = struct.unpack("3f4B3f4B", points[-32:])
     xy, uv = (item.vertices[:, 2] for item in p.scene.live)
     print("extents Z:", p.extents() and [round(corner[2], 4) for corner in p.extents()],
-          "tips of the cutters:", round(float(xy.max()), 4), round(float(uv.min()), 4), "plot:", in_planes, round(last[2], 4), round(last[9], 4))
+          "tips of the cutters:", round(float(xy.max()), 4), round(float(uv.min()), 4), "plot:", in_planes,
+          round(last[2], 4), round(last[9], 4))
 
 
 def common(op):
     app, v, tcl = op.app, op.app.vars, op.root.tk
-    print("cycle ms:", app.settings.cycle_ms, "opened:", app.loaded_file and os.path.basename(app.loaded_file), "recent:", app.prefs.recent(),
-          "lines:", app.code.total, "moves:", app.preview.program and app.preview.program.n_moves, "in title:", op.root.title().split(" AXIS ")[0])
-    print("units:", v.metric.get(), "relative:", v.coord_type.get(), "commanded:", v.display_type.get(), "view:", v.view_type.get())
-    print("sliders to:", *[tcl.call(f".pane.top.{w}.foscale", "cget", "-to") for w in ("feedoverride", "rapidoverride", "spinoverride")])
-    print("jog speed:", v.jog_speed.get(), "of", v.max_speed.get() * 60, "angular:", v.jog_aspeed.get(), "of", v.max_aspeed.get() * 60,
-          "max velocity:", v.maxvel_speed.get())
+    print("cycle ms:", app.settings.cycle_ms, "opened:", app.loaded_file and os.path.basename(app.loaded_file),
+          "recent:", app.prefs.recent(), "lines:", app.code.total, "moves:",
+          app.preview.program and app.preview.program.n_moves, "in title:", op.root.title().split(" AXIS ")[0])
+    print("units:", v.metric.get(), "relative:", v.coord_type.get(), "commanded:", v.display_type.get(), "view:",
+          v.view_type.get())
+    print("sliders to:", *[tcl.call(f".pane.top.{w}.foscale", "cget", "-to")
+                           for w in ("feedoverride", "rapidoverride", "spinoverride")])
+    print("jog speed:", v.jog_speed.get(), "of", v.max_speed.get() * 60, "angular:", v.jog_aspeed.get(), "of",
+          v.max_aspeed.get() * 60, "max velocity:", v.maxvel_speed.get())
     slow = []
     for name in ("jog", "ajog"):
         before = getattr(v, f"{name}_slider_val").get()
@@ -52,8 +56,9 @@ def common(op):
         distances.append(round(app.jogger.distance(), 6))
     v.jogincrement.set("Continuous")
     print("distances:", distances, "grids:", labels(op, ".menu.view.grid"))
-    print("jog order:", "".join(app.settings.jog_order()), "inverted:", app.jog_invert or "-", "queue:", v.max_queued_mdi_commands.get(),
-          "editor:", v.has_editor.get(), "cone:", app.options.cone_size, app.options.cone_scaling, app.options.min_tool_diameter)
+    print("jog order:", "".join(app.settings.jog_order()), "inverted:", app.jog_invert or "-", "queue:",
+          v.max_queued_mdi_commands.get(), "editor:", v.has_editor.get(), "cone:", app.options.cone_size,
+          app.options.cone_scaling, app.options.min_tool_diameter)
     print("file types:", [(name, list(patterns)) for name, patterns in app.loader.file_types()])
     p = app.preview
     print("drawn:", len(p.drawings), "box only:", p.boxed)
@@ -94,7 +99,8 @@ def everything(op):
         print("history:", f.read().split("\n"))
     op.idle()
     op.until(lambda: app.logger.points()[1] > 1, "plotted points")
-    print("X resources: plot of what stands:", struct.unpack("3f4B3f4B", app.logger.points()[0][-32:])[3:7], "selected line:", app.preview.colours["selected"])
+    print("X resources: plot of what stands:", struct.unpack("3f4B3f4B", app.logger.points()[0][-32:])[3:7],
+          "selected line:", app.preview.colours["selected"])
     print("tkapp:", tcl.getvar("from_app"))
     for _ in range(300):
         if os.path.exists("edited"):

@@ -39,7 +39,8 @@ def script(op):
     print(len(tabs.pages), file=out)
     make(text="a b", scale="2.5", more="-x 'y z'")
     made = tabs.pages[-1]
-    print([(r[0].name, r[0].label, r[2].get()) for r in made.rows], made.form.info, "preamble:", Path(made.o.preamble).name, file=out)
+    print([(r[0].name, r[0].label, r[2].get()) for r in made.rows], made.form.info, "preamble:",
+          Path(made.o.preamble).name, file=out)
     make(text="a b", scale="3", name="TTT a-b.ngc")      # its own file
     print(len(tabs.pages), made.form.info, file=out)
     op.power_on()

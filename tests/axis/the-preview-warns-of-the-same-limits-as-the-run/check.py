@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-# 60 seeded programs with offsets, rotation, G92, tool lengths, both units and arcs in every plane. The reader in C++ and the canon in
-# Python find the same extents; the labels in the preview and the warnings before a run say the same, which is what the
-# extents with the tool say.
+# 60 seeded programs with offsets, rotation, G92, tool lengths, both units and arcs in every plane. The reader in C++
+# and the canon in Python find the same extents; the labels in the preview and the warnings before a run say the same,
+# which is what the extents with the tool say.
 import random
 import tempfile
 from types import SimpleNamespace
@@ -44,17 +44,20 @@ with tempfile.TemporaryDirectory() as folder:
             wrong.append(f"{seed}: extents {found} and {[getattr(canon, name) for name in NAMES]}")
         reach = r.uniform(60, 130)
         axis = dict(min_position_limit=-reach, max_position_limit=reach)
-        composer.stat = SimpleNamespace(axis=[axis] * 9, tool_offset=[0.0, 0.0, r.choice((0.0, 21.0))] + [0.0] * 6, g5x_offset=[0.0] * 9, g92_offset=[0.0] * 9,
-                                        g5x_index=1, rotation_xy=0.0)
+        composer.stat = SimpleNamespace(axis=[axis] * 9, tool_offset=[0.0, 0.0, r.choice((0.0, 21.0))] + [0.0] * 6,
+                                        g5x_offset=[0.0] * 9, g92_offset=[0.0] * 9, g5x_index=1, rotation_xy=0.0)
         expected = [f"Program exceeds machine {name} on axis {letter}" for i, letter in enumerate("XYZ")
-                    for name, over in (("minimum", 25.4 * canon.min_extents_notool[i] < -reach), ("maximum", 25.4 * canon.max_extents_notool[i] > reach)) if over]
+                    for name, over in (("minimum", 25.4 * canon.min_extents_notool[i] < -reach),
+                                       ("maximum", 25.4 * canon.max_extents_notool[i] > reach)) if over]
         told = limit_warnings(composer.program, MILL, composer.stat)
         flagged = 0
         for view in ("z", "x"):         # X and Y, then Z
             composer.camera.set_view(view)
             labels = composer.add_extents(composer.camera.matrix(800, 600))
-            flagged += sum(bad for _, _, name, bad in (labels[:6] if view == "z" else labels[3:]) if name == "label_limit")
-        wanted = sum({0: 0, 1: 2, 2: 3}[sum(letter == e[-1] for e in expected)] for letter in "XYZ")       # the end and the length
+            flagged += sum(bad for _, _, name, bad in (labels[:6] if view == "z" else labels[3:])
+                           if name == "label_limit")
+        # the end and the length
+        wanted = sum({0: 0, 1: 2, 2: 3}[sum(letter == e[-1] for e in expected)] for letter in "XYZ")
         if told != expected or flagged != wanted:
             wrong.append(f"{seed}: told {told}, {flagged} labels, expected {expected}, {wanted}")
         warned, quiet = warned + bool(expected), quiet + (not expected)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A program that waits for its spindle, its tools and a program of its own runs twice: the second time the run time is right."""
+"""A program that waits for its spindle, its tools and a program of its own runs twice: the
+second time the run time is right."""
 import ast
 import configparser
 import os
@@ -54,7 +55,8 @@ def script(op):
     properties("what cannot be known")
     kept = configparser.RawConfigParser()
     kept.read(Path.home() / ".axis_preferences")
-    print("remembered by machine:", {os.path.basename(k): sorted(v) for k, v in ast.literal_eval(kept.get("DEFAULT", "waits")).items()})
+    print("remembered by machine:",
+          {os.path.basename(k): sorted(v) for k, v in ast.literal_eval(kept.get("DEFAULT", "waits")).items()})
 
 
 lib.run(script)

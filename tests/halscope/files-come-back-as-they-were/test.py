@@ -76,7 +76,8 @@ print("other order, no notes:", csvlog.parse(["# Sampling period is 5 ns", "x", 
 for lines in ([], ["x;y"], ["# Sampling period is 0 ns", "x"], ["# Sampling period is 5 ns"],
               ["# Sampling period is 5 ns", "x;y", "1;2", "3"],
               ["# Sampling period is 5 ns", "x;y", "1;2", "3;z"], ["# Sampling period is 5 ns", "x;y", "# Scale: 1"],
-              ["# Sampling period is 5 ns", "x;y", "# Scale: 1;q"], ["# Sampling period is 5 ns", "x;y", "# Position: .5;nan"],
+              ["# Sampling period is 5 ns", "x;y", "# Scale: 1;q"],
+              ["# Sampling period is 5 ns", "x;y", "# Position: .5;nan"],
                ["# Sampling period is 5 ns", ";".join("x" * 17)]):
     try:
         print(csvlog.parse(lines))

@@ -39,7 +39,8 @@ def mine():
     found = []
     for p in Path("/proc").iterdir():
         try:
-            if p.name.isdigit() and OWN in (p / "environ").read_bytes().split(b"\0") and b"\0LINUXCNC_SESSION=" in (p / "environ").read_bytes():
+            if (p.name.isdigit() and OWN in (p / "environ").read_bytes().split(b"\0")
+                    and b"\0LINUXCNC_SESSION=" in (p / "environ").read_bytes()):
                 found.append((p / "comm").read_text().strip())
         except OSError:
             pass
@@ -81,6 +82,7 @@ for name, words in (("all are hung up", []), ("closed", []), ("closed with nohup
         print(name + ":", mine())
         os.kill(pid, signal.SIGTERM)
     gone = look(terminal, lambda: not mine() and os.waitpid(pid, os.WNOHANG)[0] == pid, 20)
-    print(name + ":", "ends" if gone else mine(), "lock left" if Path(f"/tmp/linuxcnc.lock.{os.environ['KERF_INSTANCE']}").exists() else "")
+    print(name + ":", "ends" if gone else mine(),
+          "lock left" if Path(f"/tmp/linuxcnc.lock.{os.environ['KERF_INSTANCE']}").exists() else "")
     subprocess.run(["realtime", "status"])
 shutil.rmtree(scratch)

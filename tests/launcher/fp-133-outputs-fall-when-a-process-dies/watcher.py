@@ -12,7 +12,8 @@ import session
 from kerf import clock
 
 victim, folder = sys.argv[1], Path(sys.argv[2])
-PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out", "motion.digital-out-00", "motion.analog-out-00")
+PINS = ("spindle.0.on", "motion.motion-enabled", "joint.0.amp-enable-out", "motion.digital-out-00",
+        "motion.analog-out-00")
 SIGNALS = ("flood", "mist", "estop-loop")
 clock.join("observer", 900)
 me = hal.component("observer")
@@ -23,7 +24,8 @@ for order in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
     c.wait_complete()
 c.mode(linuxcnc.MODE_AUTO)
 NAMES = "".join(f"#<name{n}> = 1\n" for n in range(100000)) if victim == "memory" else ""
-(folder / "p.ngc").write_text("M3 S1000\nM7\nM8\nM64 P0\nM68 E0 Q5\nF30\nG1 X1\n" + "G1 X0\nG1 X1\n" * 600 + NAMES + "G1 X300\nX0\nM2\n")
+(folder / "p.ngc").write_text("M3 S1000\nM7\nM8\nM64 P0\nM68 E0 Q5\nF30\nG1 X1\n" + "G1 X0\nG1 X1\n" * 600 + NAMES
+                              + "G1 X300\nX0\nM2\n")
 c.program_open(str(folder / "p.ngc"))
 c.auto(linuxcnc.AUTO_RUN, 0)
 
@@ -61,7 +63,8 @@ os.setsid()
 clock.join("onlooker", 900)
 left, at, before = high(), 0.0, 1.0
 still, end = 0, clock.now() + 60
-try:                        # every cycle of the realtime part, to its last; nobody ends it when the launcher is gone too
+# every cycle of the realtime part, to its last; nobody ends it when the launcher is gone too
+try:
     while victim != "launcher-and-task" or (still < 500 and clock.now() < end):
         still = still + 1 if before == at and not left else 0
         left, before, at = high(), at, hal.get_value("joint.0.motor-pos-cmd")

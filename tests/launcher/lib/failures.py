@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""failures.py GROUP [WORD ...]: starts the sample mill with one thing wrong at a time; prints what the user is told and what is left."""
+"""failures.py GROUP [WORD ...]: starts the sample mill with one thing wrong at a time; prints what the user is told
+and what is left."""
 import os
 import re
 import shutil
@@ -15,14 +16,16 @@ LINUXCNC = shutil.which("linuxcnc")
 SUFFIX = "." + (instance.name() or "none")
 PORT = 21000 + os.getpid() % 9000
 # What a good start says, too; and the list of logs that ends every failed one.
-USUAL = re.compile(r"LINUXCNC - |Machine configuration |Starting LinuxCNC|linuxcnc TPMOD=|Found file|Shutting down|task: \d+ cycles|Running HAL shutdown|"
+USUAL = re.compile(r"LINUXCNC - |Machine configuration |Starting LinuxCNC|linuxcnc TPMOD=|Found file|Shutting "
+                   r"down|task: \d+ cycles|Running HAL shutdown|"
                    r"LinuxCNC terminated|Note: Using virtual time|    .*\.txt$|and$|as well as|$")
 CASES = []  # (group, title, file, (pattern, replacement) ..., preparation, environment, words before the command)
 GROUP = "settings"
 
 
 def case(title, *edits, prepare=None, file="mill.ini", env={}, before=()):
-    """env: what differs in the environment, None: not set. prepare: may return a port that is busy while the machine starts."""
+    """env: what differs in the environment, None: not set. prepare: may return a port that is
+    busy while the machine starts."""
     CASES.append((GROUP, title, file, edits, prepare, env, before))
 
 
@@ -60,10 +63,13 @@ GROUP = "programs"
 case("no such task", (r"TASK = milltask", "TASK = notask"))
 case("no [DISPLAY]DISPLAY", (r"DISPLAY = .*\n", ""))
 case("no such display", (r"DISPLAY = .*", "DISPLAY = noscreen"))
-case("a display that stands beside the INI file", (r"DISPLAY = .*", "DISPLAY = screen"), prepare=put("screen", "#!/bin/sh\n", 0o755))
+case("a display that stands beside the INI file", (r"DISPLAY = .*", "DISPLAY = screen"),
+     prepare=put("screen", "#!/bin/sh\n", 0o755))
 case("a display that is not executable", (r"DISPLAY = .*", "DISPLAY = ./screen"), prepare=put("screen", "#!/bin/sh\n"))
-case("a display of an interpreter that is not there", (r"DISPLAY = .*", "DISPLAY = ./screen"), prepare=put("screen", "#!/usr/bin/nopython\n", 0o755))
-case("a display that fails", (r"DISPLAY = .*", "DISPLAY = ./screen"), prepare=put("screen", "#!/bin/sh\necho no X display >&2\nexit 3\n", 0o755))
+case("a display of an interpreter that is not there", (r"DISPLAY = .*", "DISPLAY = ./screen"),
+     prepare=put("screen", "#!/usr/bin/nopython\n", 0o755))
+case("a display that fails", (r"DISPLAY = .*", "DISPLAY = ./screen"),
+     prepare=put("screen", "#!/bin/sh\necho no X display >&2\nexit 3\n", 0o755))
 case("no such halui", (r"HALUI = halui", "HALUI = nohalui"))
 case("no such bridge", (r"HALUI = halui", "HALBRIDGE = nobridge"))
 case("a task that ends", (r"TASK = milltask", "TASK = ./mytask"), prepare=put("mytask", "#!/bin/sh\nexit 1\n", 0o755))
@@ -85,12 +91,14 @@ case("no such thread", (HAL, "loadrt and2\naddf and2.0 base-thread\n"), file="sp
 case("a setting that is not there", (HAL, "setp motion.probe-input [PROBE]INVERTED\n"), file="spindle.hal")
 case("a program that is not there", (HAL, "loadusr -W noprogram\n"), file="spindle.hal")
 case("a program that ends before it is ready", (HAL, "loadusr -W false\n"), file="spindle.hal")
-case("a Tcl file with an error", (r"HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = more.tcl"), prepare=put("more.tcl", "\nnet x [nothing]\n"))
+case("a Tcl file with an error", (r"HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = more.tcl"),
+     prepare=put("more.tcl", "\nnet x [nothing]\n"))
 case("a Tcl file with a pin that is not there", (r"HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = more.tcl"),
      prepare=put("more.tcl", "# one\nnet x joint.7.homed\n"))
 case("a HALCMD that fails", (r"\[HAL\]", "[HAL]\nHALCMD = net x nopin"))
 case("two passes and a missing file", (r"\[HAL\]", "[HAL]\nTWOPASS = on\nHALFILE = nowhere.hal"))
-case("two passes and a pin that is not there", (r"\[HAL\]", "[HAL]\nTWOPASS = on"), (r"(HALFILE = spindle.hal)", r"\1\nHALFILE = more.hal"),
+case("two passes and a pin that is not there", (r"\[HAL\]", "[HAL]\nTWOPASS = on"),
+     (r"(HALFILE = spindle.hal)", r"\1\nHALFILE = more.hal"),
      prepare=put("more.hal", "# one\nnet x joint.7.homed\n"))
 case("a card that is not there", (HAL, "loadrt hostmot2\nloadrt hm2_eth board_ip=192.168.1.121\n"), file="spindle.hal")
 # --- files of the interpreter and of task
@@ -98,10 +106,12 @@ GROUP = "files"
 case("no such tool table", (r"TOOL_TABLE = .*", "TOOL_TABLE = none.tbl"))
 case("no [RS274NGC]PARAMETER_FILE", (r"PARAMETER_FILE.*\n", ""))
 case("a parameter file out of order", prepare=put("mill.var", "5220\t1\n5161\t0\n"))
-case("a parameter file that is a folder", prepare=lambda: (Path("mill.var").unlink(missing_ok=True), Path("mill.var").mkdir()))
+case("a parameter file that is a folder",
+     prepare=lambda: (Path("mill.var").unlink(missing_ok=True), Path("mill.var").mkdir()))
 case("a remap without its file", (r"\[RS274NGC\]", "[RS274NGC]\nREMAP = M400 modalgroup=10 ngc=nowhere"))
 case("a remap with a bad option", (r"\[RS274NGC\]", "[RS274NGC]\nREMAP = M400 modalgroop=10 ngc=nowhere"))
-case("Python that does not load", (r"\[RS274NGC\]", "[PYTHON]\nTOPLEVEL = top.py\n[RS274NGC]"), prepare=put("top.py", "import nothing_of_this_name\n"))
+case("Python that does not load", (r"\[RS274NGC\]", "[PYTHON]\nTOPLEVEL = top.py\n[RS274NGC]"),
+     prepare=put("top.py", "import nothing_of_this_name\n"))
 case("a compensation file that is not there", (r"\[JOINT_0\]", "[JOINT_0]\nCOMP_FILE = none.comp"))
 case("a HOME that is no number", (r"\[TRAJ\]", "[TRAJ]\nHOME = 0 zero"))
 case("a tool change position of two numbers", (r"\[EMCIO\]", "[EMCIO]\nTOOL_CHANGE_POSITION = 1 2"))
@@ -118,20 +128,27 @@ case("a port of the server that another program has", prepare=busy([instance.por
 case("no room for files", env={"PYTHONDONTWRITEBYTECODE": "1"}, before=("bash", "-c", 'ulimit -f 0; exec "$@"', "bash"))
 case("no home", env={"HOME": None})
 case("a home that is not there", env={"HOME": "/nonexistent"})
-case("a blank and a letter beyond ASCII in the path", prepare=lambda: shutil.copytree(".", "a b/ü"), before=("env", "-C", "a b/ü"))
-case("a path of programs without ours", env={"PATH": "/usr/bin:/bin", "LINUXCNC_RIP_FLAG": None, "LD_LIBRARY_PATH": None, "PYTHONPATH": None})
+case("a blank and a letter beyond ASCII in the path", prepare=lambda: shutil.copytree(".", "a b/ü"),
+     before=("env", "-C", "a b/ü"))
+case("a path of programs without ours",
+     env={"PATH": "/usr/bin:/bin", "LINUXCNC_RIP_FLAG": None, "LD_LIBRARY_PATH": None, "PYTHONPATH": None})
 case("a language with a comma", before=(TOP / "tests/lib/with-comma-locale",))
-case("applications of all kinds", (r"\Z", "[APPLICATIONS]\nDELAY = soon\nAPP = none\nAPP = sh -c 'echo here\nAPP = ./mill.hal\n"))
+case("applications of all kinds",
+     (r"\Z", "[APPLICATIONS]\nDELAY = soon\nAPP = none\nAPP = sh -c 'echo here\nAPP = ./mill.hal\n"))
 case("a HALCMD with a quotation mark", (r"\[HAL\]", "[HAL]\nHALCMD = show sig 'x"))
 case("a HAL file that sources what is not there", (HAL, "loadrt and2\nsource one.hal\n"), file="spindle.hal")
 case("a mistake two sources deep", (HAL, "loadrt and2\nsource one.hal\n"), file="spindle.hal",
      prepare=lambda: (put("one.hal", "\n\nsource two.hal\n")(), put("two.hal", "net a\nnet a and2.0.none\n")()))
 case("a HAL file that is no text", (HAL, "\0\1\n"), file="spindle.hal")
 case("a mistake two Tcl files deep", (r"HALFILE = mill.hal", "HALFILE = mill.hal\nHALFILE = more.tcl"),
-     prepare=lambda: (put("more.tcl", "proc deep {} {\n  source inner.tcl\n}\ndeep\n")(), put("inner.tcl", "\nsetp nothing.at.all 5\n")()))
-case("a host that dies while the machine is started", (r"(HALFILE = spindle.hal)", r"\1\nHALCMD = loadusr -w ./kill-host"),
-     prepare=put("kill-host", "#!/bin/sh\nfor p in $(pgrep -x rtapi_app); do grep -qszx LINUXCNC_SESSION=$LINUXCNC_SESSION /proc/$p/environ && kill -9 $p; done; true\n", 0o755))
-case("a HAL file for shutdown with a mistake", (r"\[HAL\]", "[HAL]\nSHUTDOWN = down.hal"), prepare=put("down.hal", "\nnet a nothing\n"))
+     prepare=lambda: (put("more.tcl", "proc deep {} {\n  source inner.tcl\n}\ndeep\n")(),
+                      put("inner.tcl", "\nsetp nothing.at.all 5\n")()))
+case("a host that dies while the machine is started",
+     (r"(HALFILE = spindle.hal)", r"\1\nHALCMD = loadusr -w ./kill-host"),
+     prepare=put("kill-host", "#!/bin/sh\nfor p in $(pgrep -x rtapi_app); do grep -qszx "
+                              "LINUXCNC_SESSION=$LINUXCNC_SESSION /proc/$p/environ && kill -9 $p; done; true\n", 0o755))
+case("a HAL file for shutdown with a mistake", (r"\[HAL\]", "[HAL]\nSHUTDOWN = down.hal"),
+     prepare=put("down.hal", "\nnet a nothing\n"))
 
 groups, chosen = sys.argv[1].split(","), sys.argv[2:]
 for group, title, file, edits, prepare, other, before in CASES:
@@ -147,17 +164,19 @@ for group, title, file, edits, prepare, other, before in CASES:
         assert count, (title, pattern)
         Path(file).write_text(text)
     busy_ports = (prepare() or []) if prepare else []
-    env = {k: v for k, v in ({k: v for k, v in os.environ.items() if k != "DISPLAY"} | {"HOME": os.getcwd()} | other).items() if v is not None}
+    env = {k: v for k, v in ({k: v for k, v in os.environ.items() if k != "DISPLAY"} | {"HOME": os.getcwd()}
+                             | other).items() if v is not None}
     try:
-        done = subprocess.run([*before, LINUXCNC, "-r", "mill.ini"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              errors="replace", timeout=60, env=env)
+        done = subprocess.run([*before, LINUXCNC, "-r", "mill.ini"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=60, env=env)
         status, out = done.returncode, done.stdout
     except subprocess.TimeoutExpired as e:
         status, out = "none: it goes on", (e.stdout or b"").decode(errors="replace")
     print(f"# {title}: status {status}")
     for line in out.splitlines():
         if not USUAL.match(line):
-            print("    " + re.sub(r"(port|process) \d{2,}", r"\1 N", line.replace(os.getcwd() + "/", "").replace(str(TOP) + "/", "").replace(SUFFIX, "")))
+            print("    " + re.sub(r"(port|process) \d{2,}", r"\1 N",
+                                  line.replace(os.getcwd() + "/", "").replace(str(TOP) + "/", "").replace(SUFFIX, "")))
     for server in busy_ports:
         if isinstance(server, socket.socket):
             server.close()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""terminal.py ANSWER COMMAND...: runs a command at a terminal, answers its question [Y/n], and prints what it shows and its status."""
+"""terminal.py ANSWER COMMAND...: runs a command at a terminal, answers its question [Y/n], and prints what it shows
+and its status."""
 import os
 import pty
 import sys

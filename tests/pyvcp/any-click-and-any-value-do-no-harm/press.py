@@ -42,7 +42,8 @@ for number, path in enumerate(sorted(Path(".").glob("*.xml"))):
     monkey.tick = turn
     trouble += [f"{path}: {what}" for what in monkey.run(ACTIONS)]
     done += len(monkey.done)
-    trouble += [f"{path}: {n} = {hal.get_p(n)}" for n, p in own.items() if p["dir"] == hal.HAL_OUT and not math.isfinite(hal.get_p(n))]
+    trouble += [f"{path}: {n} = {hal.get_p(n)}"
+                for n, p in own.items() if p["dir"] == hal.HAL_OUT and not math.isfinite(hal.get_p(n))]
     root.destroy()
     component.exit()
 print("actions:", done, *trouble[:5], sep="\n")

@@ -26,11 +26,13 @@ from hal import query  # noqa: E402
 mistakes: list[str] = []
 PINS = {
     "bit out": "button.0 go checkbutton.0 coolant checkbutton.2 radiobutton.0.one radiobutton.0.two radiobutton.0.three",
-    "bit in": "led.0 my-led my-led.disable led.1 led.1.disable button.0.disable checkbutton.0.changepin coolant.changepin "
+    "bit in": "led.0 my-led my-led.disable led.1 led.1.disable button.0.disable checkbutton.0.changepin "
+              "coolant.changepin "
               "checkbutton.2.changepin label.0.disable multilabel.0.legend0 multilabel.0.legend1 multilabel.0.legend2 "
               "number.0 timer.0.reset timer.0.run jogwheel.0.reset",
     "u32 in": "number.1 number.3", "s32 in": "number.4", "s32 out": "scale.0-i level-i",
-    "float in": "number.2 speed bar.0 meter.0.value spinbox.0.param_pin scale.0.param_pin level-in dial.0.param_pin jogwheel.0.scale",
+    "float in": "number.2 speed bar.0 meter.0.value spinbox.0.param_pin scale.0.param_pin level-in dial.0.param_pin "
+                "jogwheel.0.scale",
     "float out": "spinbox.0 scale.0-f level-f dial.0.out jogwheel.0.count mpg",
 }
 
@@ -89,7 +91,8 @@ def pins() -> None:
     for kind in got.keys() | PINS.keys():
         # an included panel goes on counting; images take a number each
         check(f"{kind} pins", got.get(kind, set()) ^ set(PINS.get(kind, "").split()), set())
-    check("prefix of the included panel", sorted(n for n in query.pins() if n.startswith("inner.")), ["inner.button.1", "inner.led.2"])
+    check("prefix of the included panel", sorted(n for n in query.pins() if n.startswith("inner.")),
+          ["inner.button.1", "inner.led.2"])
 
 
 def lamps(b: Bench) -> None:
@@ -192,8 +195,9 @@ def numbers(b: Bench) -> None:
     b.put(timer, {})
     check("resets with the edge only", timer["text"], "00:00:05")
     bar = b.all("bar")[0]
-    for value, color, left, right in ((-50, "green", -50, 0), (-25, "blue", -25, 0), (0, "blue", 0, 0), (0.5, "green", 0, 0.5),
-                                      (100, "green", 0, 100), (150, "red", 0, 150), (500, "green", 0, 150), (-500, "green", -50, 0)):
+    for value, color, left, right in ((-50, "green", -50, 0), (-25, "blue", -25, 0), (0, "blue", 0, 0),
+                                      (0.5, "green", 0, 0.5), (100, "green", 0, 100), (150, "red", 0, 150),
+                                      (500, "green", 0, 150), (-500, "green", -50, 0)):
         b.put(bar, {"bar.0": value})
         x = bar.coords("bar")
         want = [bar.position(left), bar.position(right)]
@@ -204,7 +208,8 @@ def numbers(b: Bench) -> None:
         b.put(meter, {"meter.0.value": value})
         x0, y0, x1, y1 = meter.coords("needle")
         check(f"meter {value}", round(math.atan2(x1 - x0, y0 - y1), 6), turn)
-    check("marks", sorted(meter.itemcget(i, "text") for i in meter.find_all() if meter.type(i) == "text" and meter.itemcget(i, "text").isdigit()),
+    check("marks", sorted(meter.itemcget(i, "text")
+                          for i in meter.find_all() if meter.type(i) == "text" and meter.itemcget(i, "text").isdigit()),
           ["0", "1000", "1500", "2000", "2500", "3000", "500"])
 
 
@@ -283,11 +288,13 @@ def controls(b: Bench) -> None:
 def layout(b: Bench) -> None:
     b.page(3)
     table = b.all("table")[0]
-    places = {w["text"]: (w.grid_info()["row"], w.grid_info()["column"], w.grid_info()["rowspan"], w.grid_info()["columnspan"],
-                          w.grid_info()["sticky"]) for w in table.winfo_children() if type(w) is widgets.ELEMENTS["label"]}
-    check("table", places, {"A": (1, 1, 1, 1, "new"), "B": (1, 2, 1, 1, "new"), "wide": (1, 3, 2, 2, "new"), "C": (2, 1, 1, 1, "new"),
-                            "D": (2, 2, 1, 1, "nesw"), "E": (2, 5, 1, 1, "nesw")})
-    check("flexible", (table.rowconfigure(2)["weight"], table.columnconfigure(4)["weight"], table.columnconfigure(2)["weight"]), (1, 1, 0))
+    places = {w["text"]: (w.grid_info()["row"], w.grid_info()["column"], w.grid_info()["rowspan"],
+                          w.grid_info()["columnspan"], w.grid_info()["sticky"])
+                          for w in table.winfo_children() if type(w) is widgets.ELEMENTS["label"]}
+    check("table", places, {"A": (1, 1, 1, 1, "new"), "B": (1, 2, 1, 1, "new"), "wide": (1, 3, 2, 2, "new"),
+                            "C": (2, 1, 1, 1, "new"), "D": (2, 2, 1, 1, "nesw"), "E": (2, 5, 1, 1, "nesw")})
+    check("flexible", (table.rowconfigure(2)["weight"], table.columnconfigure(4)["weight"],
+                       table.columnconfigure(2)["weight"]), (1, 1, 0))
     check("uniform", (str(table.columnconfigure(1)["uniform"]), str(table.columnconfigure(3)["uniform"])), ("a", "a"))
     first = b.all("vbox")[0]
     check("vbox", (first["relief"], first["bd"], first.winfo_children()[0].pack_info()["fill"]), ("raised", 2, "x"))

@@ -22,11 +22,13 @@ CASES = (
     ("", 1, ["bad.xml:1:1: no element found"]),
     ("<pyvcp>\n<label>\n<text>Hello</text></label></pyvcp>", 1,
      ["Error evaluating xml file:\nWidget label, Property text\nNameError: name 'Hello' is not defined\nbad.xml:2"]),
-    ("<pyvcp><vbox>\n<bar><max_>1 +</max_></bar></vbox></pyvcp>", 1, ["Widget bar, Property max_\nSyntaxError:", "bad.xml:2"]),
+    ("<pyvcp><vbox>\n<bar><max_>1 +</max_></bar></vbox></pyvcp>", 1,
+     ["Widget bar, Property max_\nSyntaxError:", "bad.xml:2"]),
     ("<pyvcp><label text=\"('a'\"/></pyvcp>", 1, ["Widget label, Property text\nSyntaxError:", "bad.xml:1"]),
     ("<pyvcp>\n\n<button><color>'red'</color></button></pyvcp>", 1,
      ["Error constructing button({'color': 'red'}):\nunknown option \"-color\"", "bad.xml:3"]),
-    ("<pyvcp><bar><min_>5</min_><max_>5</max_></bar></pyvcp>", 1, ["Error constructing bar({'min_': 5, 'max_': 5}):\nmin_ and max_ are both 5"]),
+    ("<pyvcp><bar><min_>5</min_><max_>5</max_></bar></pyvcp>", 1,
+     ["Error constructing bar({'min_': 5, 'max_': 5}):\nmin_ and max_ are both 5"]),
     ("<pyvcp><label>\n<led/></label></pyvcp>", 1, ["bad.xml:2: <led> cannot stand in <label>"]),
     ("<pyvcp><vbox><led><halpin>'a'</halpin></led>\n<button><halpin>'a'</halpin></button></vbox></pyvcp>", 1,
      ["Error constructing button({'halpin': 'a'}):", "bad.xml:2"]),
@@ -37,7 +39,8 @@ CASES = (
     ("<pyvcp>\n<led><on_color>'sunny'</on_color></led></pyvcp>", 1, ["unknown color name \"sunny\"", "bad.xml:2"]),
     ("<pyvcp>\n<include src=\"bad.xml\"/></pyvcp>", 1, ["bad.xml: includes itself"]),
     ("<pyvcp>\n<include src=\"none.xml\"/></pyvcp>", 1, ["none.xml: No such file or directory", "bad.xml:2"]),
-    ("<pyvcp><vbox><boxfill fill=\"wide\"/>\n<led/></vbox></pyvcp>", 1, ["Error constructing led({}):\nbad fill style", "bad.xml:2"]),
+    ("<pyvcp><vbox><boxfill fill=\"wide\"/>\n<led/></vbox></pyvcp>", 1,
+     ["Error constructing led({}):\nbad fill style", "bad.xml:2"]),
     ("<pyvcp><vbox><tablerow/></vbox></pyvcp>", 1, ["<tablerow> stands outside of a table"]),
 )
 
@@ -58,9 +61,11 @@ def main(folder: str) -> None:
     for words in ([], ["-x", "a.xml"], ["a.xml", "b.xml"], ["-c"]):
         expect(f"pyvcp {words}", pyvcp(*words), 1, ["Usage: pyvcp [-g"])
     expect("no file", pyvcp("nothing.xml"), 1, ["pyvcp: nothing.xml: No such file"])
-    expect("no display", session.command(folder, "env", "-C", folder, "DISPLAY=", "pyvcp", "good.xml"), 1, ["good.xml: No such file"])
+    expect("no display", session.command(folder, "env", "-C", folder, "DISPLAY=", "pyvcp", "good.xml"), 1,
+           ["good.xml: No such file"])
     good = Path(folder, "good.xml")
-    good.write_text("<pyvcp><lamp><led/></lamp><vbox><led><on_colour>'blue'</on_colour></led>\n<radiobutton><choices>[1]</choices>"
+    good.write_text("<pyvcp><lamp><led/></lamp><vbox><led><on_colour>'blue'</on_colour></led>\n"
+                    "<radiobutton><choices>[1]</choices>"
                     "<width>9</width><size>3</size></radiobutton><tabs><names>['a']</names><led/><led/></tabs></vbox></pyvcp>")
     expect("no display", session.command(folder, "env", "-C", folder, "DISPLAY=", "pyvcp", "good.xml"), 1, ["pyvcp: "])
     expect("geometry", pyvcp("-g", "wide", "good.xml"), 1, ["-g wide: bad geometry specifier"])
@@ -68,14 +73,15 @@ def main(folder: str) -> None:
     commands.write_text("loadusr -Wn good pyvcp -g 300x200+10+20 good.xml\nloadusr -Wn other pyvcp -c other good.xml\n")
     # what others pass over is passed over here, with a word
     expect("two panels", session.command(folder, "env", "-C", folder, "halcmd", "-f", str(commands)), 0,
-           ["good.xml:1: <lamp> is no element of panels", "good.xml:1: <led> has no option on_colour", "good.xml:2: <radiobutton> has no option size"])
+           ["good.xml:1: <lamp> is no element of panels", "good.xml:1: <led> has no option on_colour",
+            "good.xml:2: <radiobutton> has no option size"])
     shown = session.command(folder, "halcmd", "-s", "show", "pin")[1]
     for pin in ("good.led.0", "good.led.2", "other.led.1"):
         if pin not in shown:
             mistakes.append(f"no pin {pin}: {shown}")
     expect("same name", pyvcp("good.xml"), 0, ["Error: Multiple components with the same name."])
-    window = subprocess.run(["xdotool", "search", "--sync", "--name", "^good$", "getwindowgeometry"], capture_output=True, text=True,
-                            timeout=60).stdout
+    window = subprocess.run(["xdotool", "search", "--sync", "--name", "^good$", "getwindowgeometry"],
+                            capture_output=True, text=True, timeout=60).stdout
     if "Geometry: 300x200" not in window:
         mistakes.append(f"window: {window}")
     for name in ("good", "other"):

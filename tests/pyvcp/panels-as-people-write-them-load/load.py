@@ -33,8 +33,10 @@ for path in sorted(Path(".").glob("*.xml")):
     own = {n: p for n, p in query.pins().items() if n.startswith(f"{name}.")}
     if path.stem.startswith("12"):
         own |= {n: p for n, p in query.pins().items() if n.startswith(("left.", "right."))}
-    print(f"{path.stem}:", *sorted(f"{n.removeprefix(name + '.')} {KIND[p['type']]} {'in' if p['dir'] == hal.HAL_IN else 'out'}"
-                                   + (f" {hal.get_p(n):g}" if p["dir"] != hal.HAL_IN and hal.get_p(n) else "") for n, p in own.items()), sep="\n    ")
+    print(f"{path.stem}:", *sorted(f"{n.removeprefix(name + '.')} {KIND[p['type']]} "
+                                   f"{'in' if p['dir'] == hal.HAL_IN else 'out'}"
+                                   + (f" {hal.get_p(n):g}" if p["dir"] != hal.HAL_IN and hal.get_p(n) else "")
+                                   for n, p in own.items()), sep="\n    ")
     frame.destroy()
 root.destroy()
 for component in components:

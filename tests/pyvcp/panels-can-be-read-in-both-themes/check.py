@@ -31,7 +31,8 @@ def weak(widget):
         for item in (i for i in widget.find_all() if widget.type(i) == "text" and widget.itemcget(i, "text")):
             # letters on a face or a bar have that for their ground
             at = widget.bbox(item)
-            below = [i for i in widget.find_overlapping(*at) if i < item and widget.type(i) in ("oval", "rectangle") and widget.itemcget(i, "fill")]
+            below = [i for i in widget.find_overlapping(*at)
+                     if i < item and widget.type(i) in ("oval", "rectangle") and widget.itemcget(i, "fill")]
             ground = widget.itemcget(below[0], "fill") if below else widget["background"]
             if abs(brightness(widget, widget.itemcget(item, "fill")) - brightness(widget, ground)) < LEAST:
                 yield f"{widget.itemcget(item, 'text')!r} {widget.itemcget(item, 'fill')} on {ground}"

@@ -155,14 +155,17 @@ with tempfile.TemporaryDirectory() as d:
     # What is read back after a tool change is where the machine is, in the offsets of now.
     open(d + "/back.ngc", "w").write("G0 X5\nT1 M6\nG43.1 X1\nG10 L11 P2 Z1\nG91 G1 Y1 F9\nM2\n")
     back = gcode.load(d + "/back.ngc", tools=inch, initcodes=["G20"])
-    check(near(back.points.tolist()[-1], [4, 1, 0]), f"the tool's offset stays in the place that is read back: {back.points.tolist()}")
+    check(near(back.points.tolist()[-1], [4, 1, 0]),
+          f"the tool's offset stays in the place that is read back: {back.points.tolist()}")
     # What a subroutine's file does belongs to the line that calls it.
     open(d + "/sub.ini", "w").write(f"[RS274NGC]\nSUBROUTINE_PATH = {d}\n")
     open(d + "/helper.ngc", "w").write("o<helper> sub\n" + "\n" * 9 + "G1 X3\nG4 P1\nY2\no<helper> endsub\nM2\n")
     open(d + "/call.ngc", "w").write("G20 F9\nG1 X1\no<helper> call\no9 sub\nG1 Y5\no9 endsub\no9 call\nG1 X0\nM2\n")
     calls = gcode.load(d + "/call.ngc", ini=d + "/sub.ini")
-    check(calls.lines.tolist() == [2, 2, 3, 3, 5, 8] and calls.marks[0][0] == 3, f"{calls.lines.tolist()} {calls.error}")
-    circles = "".join(f"G10 L2 P1 X{n * .37:.3f} Y{n * -.61:.3f} R{n * 7}\nG0 X{n * .1:.2f}\nG{2 + n % 2} I.3 J{n * .1 - 1:.1f} P{1 + n % 3}\n"
+    check(calls.lines.tolist() == [2, 2, 3, 3, 5, 8] and calls.marks[0][0] == 3,
+          f"{calls.lines.tolist()} {calls.error}")
+    circles = "".join(f"G10 L2 P1 X{n * .37:.3f} Y{n * -.61:.3f} R{n * 7}\nG0 X{n * .1:.2f}\n"
+                      f"G{2 + n % 2} I.3 J{n * .1 - 1:.1f} P{1 + n % 3}\n"
                       for n in range(40))
     open(d + "/circles.ngc", "w").write("G20 F9\nG1 X0\n" + circles + "M2\n")
     length = sum(2 * math.pi * math.hypot(.3, n * .1 - 1) * (1 + n % 3) for n in range(40))

@@ -133,10 +133,12 @@ print("beside commands:", c.wait_complete() != RCS_ERROR, c.serial == poll().ech
 sleep(0.5)
 print("after that:", "moves" if moves(0) else "rests", messages())
 home()
-Path("far.nml").write_text(re.sub(r"^(P +xemc +\S+ +)LOCAL", r"\1REMOTE", Path(os.environ["NMLFILE"]).read_text(), flags=re.M))
+Path("far.nml").write_text(re.sub(r"^(P +xemc +\S+ +)LOCAL", r"\1REMOTE",
+                                  Path(os.environ["NMLFILE"]).read_text(), flags=re.M))
 child = client("linuxcnc.nmlfile = 'far.nml'; c = linuxcnc.command()" + BEATS.format(joint=0, axis=1, n=10, pause=0.1))
 need(lambda s: s.position[1] > 1, "jog")
-print("a remote client that is silent: stops", clock.wait_until(lambda: not moves(1), 10, 0.02), messages(), "connected", child.poll() is None)
+print("a remote client that is silent: stops", clock.wait_until(lambda: not moves(1), 10, 0.02), messages(),
+      "connected", child.poll() is None)
 kill(child)
 home()
 remote = socket.create_connection(("127.0.0.1", port()))

@@ -103,7 +103,8 @@ elif part == "changed":         # program, tool table, INI file, offset and tool
     for line in (10, 8):
         c.restore(line)
         print("restore:", until(lambda s: s.restore_line == line, 10))
-        print(re.sub(r"\d+-\d+-\d+ [\d:]+", "TIME", re.sub(r"stood at X21.\d+", "stood at X21", s.restore_text.partition("The run that")[2])))
+        print(re.sub(r"\d+-\d+-\d+ [\d:]+", "TIME",
+                     re.sub(r"stood at X21.\d+", "stood at X21", s.restore_text.partition("The run that")[2])))
     c.abort()
     run("M2\n", name="other.ngc")
     print("forgotten when another program has run:", poll().cut_off_line, s.cut_off_file, gone())

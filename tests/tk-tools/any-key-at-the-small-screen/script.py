@@ -17,7 +17,8 @@ m = Machine("mill.ini")
 tklinuxcnc.Window.run_program = lambda self, *words: None
 w = tklinuxcnc.Window(root, m)
 root.after_cancel(w.timer)
-limits = [(float(m.ini.find(f"JOINT_{j}", "MIN_LIMIT")), float(m.ini.find(f"JOINT_{j}", "MAX_LIMIT"))) for j in range(3)]
+limits = [(float(m.ini.find(f"JOINT_{j}", "MIN_LIMIT")), float(m.ini.find(f"JOINT_{j}", "MAX_LIMIT")))
+          for j in range(3)]
 beyond, count = [], [0]
 
 

@@ -13,7 +13,8 @@ hand = Hand(root)
 tabs = {tab.section: tab for tab in window.tabs}
 print(root.title())
 for tab in window.tabs:
-    print(tab.section, [(v.name, label.cget("text"), e.get()) for v, label, e in zip(tab.values, tab.labels, tab.entries)])
+    print(tab.section, [(v.name, label.cget("text"), e.get())
+                        for v, label, e in zip(tab.values, tab.labels, tab.entries)])
 
 
 def said():
@@ -33,7 +34,8 @@ print(states(zero))
 hand.cleared(zero.entries[0], "12.5")
 hand.cleared(zero.entries[1], "1e-7")
 hand.click(zero.buttons["Test"])
-print("at work:", hal.get_p("pid.0.Pgain"), hal.get_p("pid.0.deadband"), columns(zero), states(zero), str(zero.entries[0].cget("state")))
+print("at work:", hal.get_p("pid.0.Pgain"), hal.get_p("pid.0.deadband"), columns(zero), states(zero),
+      str(zero.entries[0].cget("state")))
 hand.click(zero.buttons["Cancel"])
 print("taken back:", hal.get_p("pid.0.Pgain"), hal.get_p("pid.0.deadband"), columns(zero), states(zero)["Test"])
 hand.click(zero.buttons["Test"])

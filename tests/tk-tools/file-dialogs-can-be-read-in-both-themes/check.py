@@ -30,7 +30,8 @@ os.makedirs("folder/inner", exist_ok=True)
 open("folder/part.ngc", "w").close()
 for theme in ("light", "dark"):
     os.environ["KERF_THEME"] = theme
-    for name, path, ask in (("file", ".__tk_filedialog", filedialog.askopenfilename), ("folder", ".__tk_choosedir", filedialog.askdirectory)):
+    for name, path, ask in (("file", ".__tk_filedialog", filedialog.askopenfilename),
+                            ("folder", ".__tk_choosedir", filedialog.askdirectory)):
         root, seen = tkinter.Tk(), []
         tkstyle.apply(root)
         root.after(300, lambda: look(root, path, seen))

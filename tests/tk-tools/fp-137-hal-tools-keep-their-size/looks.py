@@ -25,7 +25,8 @@ def change(n):
 def halshow(root):
     from kerf.tktools.halshow import Preferences, Window
     window = Window(root, Preferences(None))
-    window.add_words(["sig+freebit", "sig+count", "sig+real", "pin+siggen.0.sine", "param+siggen.0.update.tmax", "pin+and2.0.in0"])
+    window.add_words(["sig+freebit", "sig+count", "sig+real", "pin+siggen.0.sine", "param+siggen.0.update.tmax",
+                      "pin+and2.0.in0"])
     window.book.select(window.view)
     yield
     while True:
@@ -67,11 +68,14 @@ def halscope(root):
 
 def histogram(root):
     from kerf.haltools.latency_view import Bars, Histograms
-    platform = SimpleNamespace(realtime="PREEMPT_RT", is_realtime=True, virtual_clock=False, governors=["performance"], isolated="2-3")
+    platform = SimpleNamespace(realtime="PREEMPT_RT", is_realtime=True, virtual_clock=False, governors=["performance"],
+                               isolated="2-3")
 
     def read(bins):
-        return [Bars([random.randrange(10 ** 6) for _ in range(401)], -20, 20, "us", f"sdev {random.random()}") for _ in range(2)]
-    window = Histograms(root, "latency-histogram", ["processor"], "", ["base", "servo"], read, lambda: None, True, 200, platform)
+        return [Bars([random.randrange(10 ** 6) for _ in range(401)], -20, 20, "us", f"sdev {random.random()}")
+                for _ in range(2)]
+    window = Histograms(root, "latency-histogram", ["processor"], "", ["base", "servo"], read, lambda: None, True,
+                        200, platform)
     yield
     while True:
         window.show()
@@ -84,7 +88,8 @@ def latency_test(root):
     from kerf.haltools.session import Platform
     component = latency_panel.make_component(hal)
     worst = latency_panel.Worst("bs")
-    window = latency_panel.Window(root, component, worst, {"s": "servo", "b": "base"}, {"s": 1000000, "b": 25000}, Platform())
+    window = latency_panel.Window(root, component, worst, {"s": "servo", "b": "base"},
+                                  {"s": 1000000, "b": 25000}, Platform())
     root.after = lambda *_: None        # the looks are ours
     yield
     while True:
@@ -110,7 +115,9 @@ def tooledit(root):
 def sim_pin(root):
     sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "src/hal/user_comps"))
     import sim_pin as program
-    window = program.Window(root, "Pins", [(program.Item("freebit"), "toggle", True), (program.Item("count"), "toggle", True), (program.Item("real"), "toggle", True)])
+    window = program.Window(root, "Pins",
+                            [(program.Item("freebit"), "toggle", True), (program.Item("count"), "toggle", True),
+                             (program.Item("real"), "toggle", True)])
     yield
     while True:
         for row in window.rows:
@@ -121,7 +128,8 @@ def sim_pin(root):
 def changer(root):
     import hal
     from kerf.tktools.hal_manualtoolchange import Exchange, Window, make_component
-    window = Window(root, Exchange(make_component(), sleep=lambda seconds: hal.set_p("hal_manualtoolchange.change", "0")))
+    window = Window(root, Exchange(make_component(),
+                                   sleep=lambda seconds: hal.set_p("hal_manualtoolchange.change", "0")))
     yield
     for n in range(1 << 60):
         hal.set_p("hal_manualtoolchange.number", str(n % 50))
@@ -135,8 +143,8 @@ def changer(root):
             yield
 
 
-PROGRAMS = {"halshow": halshow, "halmeter": halmeter, "halscope": halscope, "latency-histogram": histogram, "latency-test": latency_test,
-            "tooledit": tooledit, "sim_pin": sim_pin, "hal_manualtoolchange": changer}
+PROGRAMS = {"halshow": halshow, "halmeter": halmeter, "halscope": halscope, "latency-histogram": histogram,
+            "latency-test": latency_test, "tooledit": tooledit, "sim_pin": sim_pin, "hal_manualtoolchange": changer}
 
 
 def look(name):

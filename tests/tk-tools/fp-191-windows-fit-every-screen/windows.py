@@ -1,4 +1,5 @@
-"""windows.py LOOK...: texts that have no room, and unreadable colours, of all small windows (tests/tk-tools/lib/fit_check.py).
+"""windows.py LOOK...: texts that have no room, and unreadable colours, of all small windows
+(tests/tk-tools/lib/fit_check.py).
 
 windows.py untranslated: their texts that come from no catalogue.
 """
@@ -50,7 +51,9 @@ def meter(root):
 
 
 def pins(root):
-    sim_pin.Window(root, "Pins", [(sim_pin.Item("freebit"), "hold", True), (sim_pin.Item("count"), "toggle", True), (sim_pin.Item("siggen.0.frequency"), "toggle", False)])
+    sim_pin.Window(root, "Pins",
+                   [(sim_pin.Item("freebit"), "hold", True), (sim_pin.Item("count"), "toggle", True),
+                    (sim_pin.Item("siggen.0.frequency"), "toggle", False)])
 
 
 def show(root):
@@ -60,9 +63,12 @@ def show(root):
 
 
 def histogram(root):
-    platform = SimpleNamespace(realtime="PREEMPT_RT", is_realtime=True, virtual_clock=False, governors=["performance"], isolated="2-3")
-    bars = [latency_view.Bars([1, 5, 90, 4, 2], -20, 20, "us", "servo min: -5.000 us max: 7.000 us sdev: 0.500 us   off chart: - 0  + 0")] * 2
-    window = latency_view.Histograms(root, "latency-histogram", ["a processor (4), kernel 6.12"], "a note", ["base thread (25000 ns)", "servo thread (1000000 ns)"],
+    platform = SimpleNamespace(realtime="PREEMPT_RT", is_realtime=True, virtual_clock=False, governors=["performance"],
+                               isolated="2-3")
+    bars = [latency_view.Bars([1, 5, 90, 4, 2], -20, 20, "us",
+                              "servo min: -5.000 us max: 7.000 us sdev: 0.500 us   off chart: - 0  + 0")] * 2
+    window = latency_view.Histograms(root, "latency-histogram", ["a processor (4), kernel 6.12"], "a note",
+                                     ["base thread (25000 ns)", "servo thread (1000000 ns)"],
                                      lambda bins: bars, lambda: None, True, 200, platform)
     window.show()
 
@@ -75,7 +81,8 @@ def scope(root):
     style = tkstyle.apply(root)
     window = screen.Screen(root, settings, acquire.Offline(), style)
     # A record with figures below its state: neither lies over the other.
-    window.record = acquire.Record(1000000, 500, 1000, {1: array.array("d", (1e5 * math.sin(n / 30) for n in range(1000)))})
+    window.record = acquire.Record(1000000, 500, 1000,
+                                   {1: array.array("d", (1e5 * math.sin(n / 30) for n in range(1000)))})
     window.state_text = lambda: screen._("WAITING FOR TRIGGER")
     window.changed()
     dialogs.RateDialog(root, settings, 32000, True, None, None)
@@ -83,9 +90,11 @@ def scope(root):
 
 
 def latency(root):
-    platform = SimpleNamespace(realtime="POSIX", is_realtime=False, virtual_clock=True, governors=["powersave"], isolated="", doubts=lambda: [])
+    platform = SimpleNamespace(realtime="POSIX", is_realtime=False, virtual_clock=True, governors=["powersave"],
+                               isolated="", doubts=lambda: [])
     pins = dict.fromkeys(("sl", "sj", "st", "bl", "bj", "bt", "reset"), 0)
-    latency_panel.Window(root, pins, latency_panel.Worst("bs"), {"s": "servo", "b": "base"}, {"s": 1000000, "b": 25000}, platform)
+    latency_panel.Window(root, pins, latency_panel.Worst("bs"), {"s": "servo", "b": "base"},
+                         {"s": 1000000, "b": 25000}, platform)
 
 
 def form(root):
@@ -99,7 +108,8 @@ def probe(root):
 
 
 def moved_off(root):
-    offsets = SimpleNamespace(display_only=False, enabled=lambda: True, may_enable=lambda: True, current=lambda axis: 1.5, wanted=lambda axis: 1.5, usage=lambda: 95,
+    offsets = SimpleNamespace(display_only=False, enabled=lambda: True, may_enable=lambda: True,
+                              current=lambda axis: 1.5, wanted=lambda axis: 1.5, usage=lambda: 95,
                               paused=lambda: True, applied=lambda: True, motion_on=lambda: True,
                               status=lambda: (moveoff_gui._(moveoff_gui.LIMIT), moveoff_gui.COLORS[moveoff_gui.LIMIT]))
     window = moveoff_gui.Window(root, offsets, moveoff_gui.parse([]))
@@ -119,7 +129,9 @@ PROGRAMS = {
     "debuglevel": lambda root: debuglevel.Window(root, Status(), None),
     "teach-in": lambda root: teach_in.Window(root, Status(), sys.stdout),
     "halscope": scope, "latency-test": latency, "ngcgui": form, "simulate_probe": probe, "moveoff_gui": moved_off,
-    "errors": lambda root: launch_windows.Errors(root, "«milltask (process 1234) died unexpectedly; stopping everything»", "t.hal", "machine.ini"),
+    "errors": lambda root: launch_windows.Errors(root,
+                                                 "«milltask (process 1234) died unexpectedly; stopping everything»",
+                                                 "t.hal", "machine.ini"),
     "image-to-gcode": lambda root: image_to_gcode.Window(root, Image.new("L", (40, 30)), "a.png", relief.Settings()),
     "mdro": lambda root: mdro.Window(root, mdro.Readout(list("XYZ"), lambda i: 1.25, "inch"), component, 20),
 }

@@ -32,8 +32,9 @@ def screen(root):
 
 
 def pendant(root):
-    window = monitor_xhc_hb04.Window(root, SimpleNamespace(step=lambda: monitor_xhc_hb04._("Lost connection to pendant") + "\n\n"
-                                                           + monitor_xhc_hb04._("Reconnect not supported for require_pendant==1"), ended=False))
+    window = monitor_xhc_hb04.Window(root,
+                                     SimpleNamespace(step=lambda: monitor_xhc_hb04._("Lost connection to pendant")
+                                                     + "\n\n" + monitor_xhc_hb04._("Reconnect not supported for require_pendant==1"), ended=False))
     window.tick()
 
 
@@ -41,7 +42,8 @@ def strips(root):
     threads = [("base", 25000), ("servo", 1000000)]
     rows = {name: [(n, n % 7 / 10, 0.7) for n in range(20)] for name, _ in threads}
     trace = SimpleNamespace(threads=threads, rows=rows, start=0, count=0, sample=lambda: None, reset=lambda: None)
-    strip_chart.Plot(root, trace, SimpleNamespace(relative=True, points=0, time=1000), "a processor (4), kernel 6.12").show()
+    strip_chart.Plot(root, trace, SimpleNamespace(relative=True, points=0, time=1000),
+                     "a processor (4), kernel 6.12").show()
 
 
 def save(root):
@@ -50,6 +52,7 @@ def save(root):
     return window
 
 
-PROGRAMS = {"tklinuxcnc": screen, "emccalib": lambda root: emccalib.Window(root, Calibration("mill.ini")), "pendant": pendant, "latency-plot": strips,
-            "linuxcnctop": lambda root: linuxcnctop.Window(root, s), "debuglevel": lambda root: debuglevel.Window(root, s, c), "halconfig": save}
+PROGRAMS = {"tklinuxcnc": screen, "emccalib": lambda root: emccalib.Window(root, Calibration("mill.ini")),
+            "pendant": pendant, "latency-plot": strips, "linuxcnctop": lambda root: linuxcnctop.Window(root, s),
+            "debuglevel": lambda root: debuglevel.Window(root, s, c), "halconfig": save}
 fit_check.run(PROGRAMS, os.environ["FIT_LOOKS"].split())

@@ -10,8 +10,10 @@ window = halconfig.Window(root)
 hand = Hand(root)
 files = ["", "nets.hal", "all.hal"]
 window.ask_file = SimpleNamespace(asksaveasfilename=lambda **k: files.pop(0))
-print(root.title(), [window.book.tab(i, "text").strip() for i in window.book.tabs() if window.book.tab(i, "state") != "hidden"])
-print({t: [(m.entrycget(i, "label"), m.entrycget(i, "state")) for i in range(m.index("end") + 1)] for t, m in window.menus.items()})
+print(root.title(), [window.book.tab(i, "text").strip()
+                     for i in window.book.tabs() if window.book.tab(i, "state") != "hidden"])
+print({t: [(m.entrycget(i, "label"), m.entrycget(i, "state")) for i in range(m.index("end") + 1)]
+       for t, m in window.menus.items()})
 window.book.select(window.modify)
 hand.cleared(window.command, "newsig fresh bit")
 hand.key("Return")

@@ -42,5 +42,6 @@ hand.click(window.buttons["Exit"])
 root = tkstyle.open_display("halmeter", "Halmeter")
 window = Window(root, *parse(["-s", "signal", "x-float", "-g", "5", "6", "150"]))
 root.update()
-print(root.title(), window.value.cget("text"), root.winfo_width(), root.winfo_height() <= window.style.px(24), window.label.winfo_ismapped())
+print(root.title(), window.value.cget("text"), root.winfo_width(), root.winfo_height() <= window.style.px(24),
+      window.label.winfo_ismapped())
 window.exit()

@@ -80,15 +80,18 @@ window.expand("pin")
 hand.row(tree, "pin+and2.1.", button=3)
 hand.pick(window.tree_menu, 0)
 print(view.words())
-window.add_words(["pin+mux2.0.in0", "sig+count", "param+siggen.0.update.tmax", "pin+siggen.0.frequency", "pin+no.such", "x+y"])
+window.add_words(["pin+mux2.0.in0", "sig+count", "param+siggen.0.update.tmax", "pin+siggen.0.frequency",
+                  "pin+no.such", "x+y"])
 print(said())
 print(shown("freebit"), shown("siggen.0.frequency")[:2])
 hand.click(button("freebit", "Set"))
 print(shown("freebit"), hal.get_s("freebit"))
 hand.click(button("freebit", "Tgl"))
 print(hal.get_s("freebit"))
-print("greyed:", str(button("mux2.0.in0", "Set val").cget("state")), "and no button for the output:", view.rows[place("and2.1.out")].widgets)
-for name, typed in (("count", "0x10"), ("count", "3000000000"), ("count", "1.5"), ("siggen.0.frequency", "2,25"), ("siggen.0.frequency", "fast")):
+print("greyed:", str(button("mux2.0.in0", "Set val").cget("state")), "and no button for the output:",
+      view.rows[place("and2.1.out")].widgets)
+for name, typed in (("count", "0x10"), ("count", "3000000000"), ("count", "1.5"), ("siggen.0.frequency", "2,25"),
+                    ("siggen.0.frequency", "fast")):
     view.ask_value = lambda *a, t=typed, **k: t
     hand.click(button(name, "Set val"))
     print(f"{name} {typed}:", said())
@@ -145,15 +148,18 @@ window.add_words(["sig+wide"])
 hal.set_s("wide", -2 ** 63)
 view.update_values()
 row = view.rows[place("wide")]
-print(view.canvas.itemcget(row.value_id, "text"), "beside the buttons:", view.canvas.bbox(row.value_id)[2] <= row.widgets[0].winfo_x())
+print(view.canvas.itemcget(row.value_id, "text"), "beside the buttons:",
+      view.canvas.bbox(row.value_id)[2] <= row.widgets[0].winfo_x())
 view.remove(row)
 
 print("== commands")
 hand.click(window.command)
-for line in ("setp and2.0.in0 1", "setp and2.0.in0 1", "newsig fresh float", "lock all", "newsig other bit", "unlock all", "help ptype", "setp nothing 1", "show thread"):
+for line in ("setp and2.0.in0 1", "setp and2.0.in0 1", "newsig fresh float", "lock all", "newsig other bit",
+             "unlock all", "help ptype", "setp nothing 1", "show thread"):
     hand.cleared(window.command, line)
     hand.key("Return")
-    print(line, "->", said().split(":", 1)[-1].strip()[:60], *(text().splitlines()[:1] if line.startswith("help") else ()))
+    print(line, "->", said().split(":", 1)[-1].strip()[:60],
+          *(text().splitlines()[:1] if line.startswith("help") else ()))
 print(window.history.lines, tree.exists("sig+sig+fresh"), hal.get_p("and2.0.in0"))
 hand.key("Up", "Up")
 print("recalled:", window.command.get())

@@ -24,7 +24,8 @@ class Meter:
 
 
 meter = Meter()
-platform = SimpleNamespace(realtime="PREEMPT_RT", is_realtime=True, virtual_clock=False, governors=["performance"], isolated="2-3")
+platform = SimpleNamespace(realtime="PREEMPT_RT", is_realtime=True, virtual_clock=False, governors=["performance"],
+                           isolated="2-3")
 root = tkstyle.open_display("latency-histogram", "Test")
 window = latency_view.Histograms(root, "latency-histogram", ["a processor"], "a note", ["servo thread (1000000 ns)"],
                                  latency_view.latency_bars(meter, True), meter.reset, True, 20, platform)
@@ -35,7 +36,8 @@ chart = window.charts[0]
 def bars():
     window.show()
     heights = [chart.coords(i)[3] - chart.coords(i)[1] for i in chart.find_withtag("bar")]
-    return len(chart.bars.counts), chart.bars.counts[0], chart.bars.counts[-1], len(heights), round(heights[0] / max(heights), 2)
+    return (len(chart.bars.counts), chart.bars.counts[0], chart.bars.counts[-1], len(heights),
+            round(heights[0] / max(heights), 2))
 
 
 print(bars(), chart.bars.low, chart.bars.high, chart.itemcget("figures", "text"))
@@ -59,10 +61,12 @@ def ended(run, *arguments):
         print("ended:", problem)
 
 
-meter.read = lambda: meter.figures[0].update(None, None, None, None)     # as hal.get_p() when its component was unloaded
+# as hal.get_p() when its component was unloaded
+meter.read = lambda: meter.figures[0].update(None, None, None, None)
 latency_view.PERIOD_MS = 10
 root = tkstyle.open_display("latency-histogram", "Test")
-ended(latency_view.run, latency_view.Histograms(root, "latency-histogram", [], "", ["servo"], latency_view.latency_bars(meter, True), meter.reset), 0)
+ended(latency_view.run, latency_view.Histograms(root, "latency-histogram", [], "", ["servo"],
+                                                latency_view.latency_bars(meter, True), meter.reset), 0)
 
 
 class Trace:
@@ -93,7 +97,8 @@ root.update()
 def lines():
     found = [strip.coords(tag) for tag in ("line", "largest")]
     heights = [[round(y) for y in points[1::2]] for points in found]
-    return [[h.index(min(h)), len(h)] for h in heights], strip.itemcget("figures", "text"), [strip.itemcget(i, "text") for i in strip.find_withtag("time")]
+    return ([[h.index(min(h)), len(h)] for h in heights], strip.itemcget("figures", "text"),
+            [strip.itemcget(i, "text") for i in strip.find_withtag("time")])
 
 
 print("plot:", *lines())
@@ -117,7 +122,8 @@ trace.latencies = []
 options = latency_plot.options(["--hal", "-t", "100"])
 options.time = 10
 ended(strip_chart.show_strips, trace, options, "a machine")
-print([latency_plot.options(words).relative for words in ([], ["--relative"], ["--actual", "-H", "-b", "50000", "-s", "2000000"])])
+print([latency_plot.options(words).relative
+       for words in ([], ["--relative"], ["--actual", "-H", "-b", "50000", "-s", "2000000"])])
 
 
 def picker():

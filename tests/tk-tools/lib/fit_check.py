@@ -25,7 +25,8 @@ def texts(widget):
     for child in widget.winfo_children():
         kind = child.winfo_class()
         if kind == "Menu":
-            yield from (child.entrycget(n, "label") for n in range((child.index("end") or 0) + 1) if child.type(n) not in ("separator", "tearoff"))
+            yield from (child.entrycget(n, "label")
+                        for n in range((child.index("end") or 0) + 1) if child.type(n) not in ("separator", "tearoff"))
         elif kind == "TNotebook":
             yield from (child.tab(page, "text") for page in child.tabs())
         elif kind == "Canvas":
@@ -67,7 +68,8 @@ def each(programs, look):
 
 
 def show_untranslated(programs):
-    """Prints the texts that come from no catalogue. The catalogue is replaced before the windows are imported: mark_translated()."""
+    """Prints the texts that come from no catalogue. The catalogue is replaced before the windows are imported:
+    mark_translated()."""
     def look(name, root, window):
         for page in pages(root, window):
             pass
@@ -84,7 +86,8 @@ def picture(root, name):
 
 def colours(root, style):
     """Pairs of the theme that are too alike to be read."""
-    for back, inks in (("face", ("ink", "bad", "good", "faint")), ("field", ("ink", "pin", "signal", "param", "chart", "bad", "good", "faint"))):
+    for back, inks in (("face", ("ink", "bad", "good", "faint")),
+                       ("field", ("ink", "pin", "signal", "param", "chart", "bad", "good", "faint"))):
         for ink in inks:
             ratio = room.contrast(*([c / 65535 for c in root.winfo_rgb(style.colours[name])] for name in (ink, back)))
             if ratio < (3 if ink == "chart" else room.CONTRAST):
@@ -96,7 +99,8 @@ def run(programs, looks):
     for words in looks:
         tongue, scale, theme, *touch = words.split(":")
         os.environ.update(KERF_SCALE=scale, KERF_THEME=theme, KERF_TOUCH="1" if touch else "0")
-        catalogue = room.longer() if tongue == "long" else gettext.translation("linuxcnc", Tree.find().locale, [tongue], fallback=True)
+        catalogue = (room.longer() if tongue == "long"
+                     else gettext.translation("linuxcnc", Tree.find().locale, [tongue], fallback=True))
         language.catalogue = lambda found=catalogue: found
         told = set()
 

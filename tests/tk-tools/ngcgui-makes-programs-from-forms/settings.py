@@ -22,5 +22,6 @@ class Watched(ngcgui.Page):
 
 ngcgui.Page = Watched
 print("status", ngcgui.main(["-i", "shape.ini"]))
-print([word.replace(os.environ["HOME"], "~") for word in Path("gcmc.words").read_text().split() if "include" in word or "define" in word])
+print([word.replace(os.environ["HOME"], "~")
+       for word in Path("gcmc.words").read_text().split() if "include" in word or "define" in word])
 print(Path("auto.ngc").read_text().split()[:1], Path("auto.ngc").read_text().split()[-2:])

@@ -66,8 +66,10 @@ def messages():
 
 wait()
 print(root.title(), root.tk.call(".mine", "cget", "-text"))
-print({title: [menu.entrycget(i, "label") for i in range(menu.index("end") + 1) if menu.type(i) != "separator"] for title, menu in w.menus.items()})
-print("position:", w.font.actual("family"), w.font.cget("size"), w.font.cget("slant"), str(w.values[0].cget("font")) == w.font.name)
+print({title: [menu.entrycget(i, "label") for i in range(menu.index("end") + 1) if menu.type(i) != "separator"]
+       for title, menu in w.menus.items()})
+print("position:", w.font.actual("family"), w.font.cget("size"), w.font.cget("slant"),
+      str(w.values[0].cget("font")) == w.font.name)
 w.help()
 top = next(t for t in root.winfo_children() if isinstance(t, tk.Toplevel))
 print("help:", next(t for t in top.winfo_children() if isinstance(t, tk.Text)).get("1.0", "end").strip())

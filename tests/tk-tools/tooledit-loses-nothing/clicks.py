@@ -72,7 +72,8 @@ with hand.answers("no"):
 print(status())
 with hand.answers("cancel"):
     hand.click(buttons["Quit"])
-print("FP-186: asked, still open, edited:", bool(root.winfo_exists()), window.table.modified, window.table.rows[0].get("Z"))
+print("FP-186: asked, still open, edited:", bool(root.winfo_exists()), window.table.modified,
+      window.table.rows[0].get("Z"))
 hand.click(buttons["ReRead"])
 print(status(), window.table.modified)
 many = Table("tool.tbl")
@@ -81,6 +82,7 @@ sheet.show(window.table.rows)
 print("widgets for", len(window.table.rows), "tools:", len(sheet.lines) < 40)
 hand.click(cell(0, "T"))
 hand.key("Up")
-print("the end is in sight:", sheet.top + sheet.visible() == len(window.table.rows), root.focus_get() is cell(len(window.table.rows) - 1, "T"))
+print("the end is in sight:", sheet.top + sheet.visible() == len(window.table.rows),
+      root.focus_get() is cell(len(window.table.rows) - 1, "T"))
 hand.click(buttons["ReRead"])
 hand.click(buttons["Quit"])

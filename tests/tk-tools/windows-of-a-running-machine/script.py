@@ -123,7 +123,8 @@ need(lambda s: s.task_state == STATE_ON, "on")
 
 
 def windows(name):
-    done = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", name], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    done = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", name], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True)
     return done.stdout.split()
 
 
@@ -138,4 +139,5 @@ print("changed:", until(lambda s: s.tool_in_spindle == tool, 20.0, 0.1), windows
 c.mdi("T0 M6")
 print("asks for none:", clock.wait_until(lambda: windows("Tool change"), 20.0, 0.1), "tool", poll().tool_in_spindle)
 c.abort()
-print("closed by an abort:", clock.wait_until(lambda: not windows("Tool change"), 20.0, 0.1), "tool", poll().tool_in_spindle, hal.get_p("hal_manualtoolchange.changed"), messages())
+print("closed by an abort:", clock.wait_until(lambda: not windows("Tool change"), 20.0, 0.1), "tool",
+      poll().tool_in_spindle, hal.get_p("hal_manualtoolchange.changed"), messages())

@@ -43,7 +43,8 @@ def edited_table(path, version):
 def parameters(path, version):
     part = path.with_name("part.ngc")
     part.write_text(f"G10 L2 P1 X{len(version)}.5\nM2\n")
-    subprocess.run([TOP / "bin/rs274", "-g", "-v", path, part], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    subprocess.run([TOP / "bin/rs274", "-g", "-v", path, part], stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL, check=False)
 
 
 def halscope_settings(version):
@@ -66,14 +67,20 @@ def ngcgui_program(path, version):
 WRITERS = {
     "tool table, controller": ("t.tbl", TABLE, controller_table),
     "tool table, tooledit": ("t.tbl", TABLE, edited_table),
-    "parameter file": ("t.var", (TOP / "configs/sim/mill/mill.var").read_text() if (TOP / "configs/sim/mill/mill.var").exists() else "", parameters),
-    "preferences of AXIS": ("prefs", "[DEFAULT]\nshow_tool = True\n", lambda path, version: Preferences(path).putpref("name", version, str)),
+    "parameter file": ("t.var",
+                       (TOP / "configs/sim/mill/mill.var").read_text() if (TOP / "configs/sim/mill/mill.var").exists()
+                       else "", parameters),
+    "preferences of AXIS": ("prefs", "[DEFAULT]\nshow_tool = True\n",
+                            lambda path, version: Preferences(path).putpref("name", version, str)),
     "history of MDI lines": ("history", "G0 X1\n", lambda path, version: MdiHistory(path).add(f"(msg,{version})")),
-    "last configuration": ("home/.linuxcncrc", "[PICKCONFIG]\nLAST_CONFIG = /a.ini\n", lambda path, version: configs.remember(f"/{version}.ini")),
+    "last configuration": ("home/.linuxcncrc", "[PICKCONFIG]\nLAST_CONFIG = /a.ini\n",
+                           lambda path, version: configs.remember(f"/{version}.ini")),
     "settings of halshow": ("prefs.tcl", "set ::workmode showhal\n", halshow_settings),
     "settings of tooledit, watch lists": ("list.halshow", "pin+a\n", tclprefs.write),
-    "settings of halscope": ("scope.cfg", "HZOOM 1\n", lambda path, version: configfile.save(path, halscope_settings(version))),
-    "settings of image-to-gcode": ("home/.image2gcoderc", "", lambda path, version: image_to_gcode.remember(image_to_gcode.remembered())),
+    "settings of halscope": ("scope.cfg", "HZOOM 1\n",
+                             lambda path, version: configfile.save(path, halscope_settings(version))),
+    "settings of image-to-gcode": ("home/.image2gcoderc", "",
+                                   lambda path, version: image_to_gcode.remember(image_to_gcode.remembered())),
     "greatest latency": ("latency", "1\n", lambda path, version: latency_test.keep_worst(path, len(version) * 1000)),
     "programs of ngcgui": ("auto.ngc", "(old)\n", ngcgui_program),
     "subroutines of texts": ("text.ngc", f"(info: x)\n({textfiles.MADE})\n", textfiles.write),
@@ -172,7 +179,8 @@ READERS = {
 
 def damages(whole, rng):
     yield from (whole[:n] for n in range(0, len(whole), max(1, len(whole) // 8)))
-    yield from (b"", b"\0" * len(whole), whole.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + whole, whole.replace(b".", b","), b"\xff\xfe\x80garbage" + whole)
+    yield from (b"", b"\0" * len(whole), whole.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + whole,
+                whole.replace(b".", b","), b"\xff\xfe\x80garbage" + whole)
     for _ in range(ROUNDS):
         bad = bytearray(whole)
         for _ in range(rng.randrange(1, 9)):
@@ -212,7 +220,8 @@ def damaged(name):
 
 for name in WRITERS:
     calls, wrong = cuts(name)
-    print(f"{name}: {'the old text or the new one' if not wrong else wrong[:3]}, calls that fail: {'enough' if calls >= 4 else calls}")
+    print(f"{name}: {'the old text or the new one' if not wrong else wrong[:3]}, calls that fail: "
+          f"{'enough' if calls >= 4 else calls}")
 print()
 for name in READERS:
     count, named, wrong = damaged(name)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""look.py MACHINE.py: starts it, moves every pin, tells whether the picture follows; pictures are the window's pixels."""
+"""look.py MACHINE.py: starts it, moves every pin, tells whether the picture follows; pictures
+are the window's pixels."""
 import os
 import re
 import signal
@@ -33,13 +34,15 @@ def wait(condition, what):
 
 child = subprocess.Popen(["/usr/bin/python3", machine])
 try:
-    wait(lambda: f"{component}." in halcmd("show", "pin", component) and "vismach.plotclear" in halcmd("show", "pin", "vismach"), "the pins are there")
+    wait(lambda: f"{component}." in halcmd("show", "pin", component)
+         and "vismach.plotclear" in halcmd("show", "pin", "vismach"), "the pins are there")
     first = picture()
     wait(lambda: picture() != first or first.count(b"\0") != len(first), "a picture is drawn")
     time.sleep(0.5)
     before = picture()
     for pin in re.findall(rf"IN\s+\S+\s+({component}\.\S+)", halcmd("show", "pin", component)):
-        halcmd("setp", pin, "1" if "clamped" in pin else "3" if "tool" == pin.split(".")[1] else "313" if "order" in pin else "0.7" if "load" in pin else "12.5")
+        halcmd("setp", pin, "1" if "clamped" in pin else "3" if "tool" == pin.split(".")[1] else "313" if "order" in pin
+               else "0.7" if "load" in pin else "12.5")
     followed = wait(lambda: picture() != before, "the picture follows the pins")
     print(f"{name}:", "follows its pins" if followed and child.poll() is None else "does not run")
 finally:

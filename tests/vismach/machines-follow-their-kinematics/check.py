@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The supplied machines: their pins, pictures without errors that move with every pin, and the tool's place in the frame of
-the work against the formulas of the kinematics."""
+"""The supplied machines: their pins, pictures without errors that move with every pin, and the tool's place in the
+frame of the work against the formulas of the kinematics."""
 
 from __future__ import annotations
 
@@ -28,16 +28,19 @@ from hal import query  # noqa: E402
 from vismach.view import View  # noqa: E402
 
 PINS = {
-    "5axisgui": "jx jy jz jb jc tool_length tool_diam +pivot_len", "hbmgui": "table saddle head quill tool-length tool-radius",
+    "5axisgui": "jx jy jz jb jc tool_length tool_diam +pivot_len",
+    "hbmgui": "table saddle head quill tool-length tool-radius",
     "hexagui": "joint.0 joint.1 joint.2 joint.3 joint.4 joint.5 axis.x axis.y axis.z axis.a axis.b axis.c",
     "lineardelta": "joint0 joint1 joint2 joint3 R L", "rotarydelta": "joint0 joint1 joint2 pfr tl sl fr",
     "maho600gui": "table tableway head arotate brotate tool-length tool-radius",
     "max5gui": "table saddle head tilt rotate tool-length tool-radius",
     "melfagui": "joint1 joint2 joint3 joint4 joint5 joint6 lnkdx lnkdz grip",
     "millturngui": "jointX jointY jointZ jointA toollength tooldiameter tool-x-offset !millkins",
-    "puma560gui": "joint1 joint2 joint3 joint4 joint5 joint6 grip", "pumagui": "joint1 joint2 joint3 joint4 joint5 joint6",
+    "puma560gui": "joint1 joint2 joint3 joint4 joint5 joint6 grip",
+    "pumagui": "joint1 joint2 joint3 joint4 joint5 joint6",
     "scaragui": "joint0 joint1 joint2 joint3 joint4 joint5", "scorbot-er-3": "joint0 joint1 joint2 joint3 joint4",
-    "xyzab-tdr-gui": "axis-x axis-y axis-z rotary-a rotary-b x_offset z_offset x-rot-point y-rot-point z-rot-point tool_length tool_diameter",
+    "xyzab-tdr-gui": "axis-x axis-y axis-z rotary-a rotary-b x_offset z_offset x-rot-point y-rot-point z-rot-point "
+                     "tool_length tool_diameter",
     "xyzac-trt-gui": "table-x saddle-y spindle-z tilt-a rotate-c y-offset z-offset tool-offset",
     "xyzbc-trt-gui": "table-x saddle-y spindle-z tilt-b rotate-c x-offset z-offset tool-offset",
 }
@@ -152,9 +155,11 @@ def hexapod(p: Pins) -> tuple[float, float, float]:
     return p["axis.x"], p["axis.y"], p["axis.z"]
 
 
-FORMULAS = {"xyzac-trt-gui": xyzac, "xyzbc-trt-gui": xyzbc, "xyzab-tdr-gui": xyzab, "5axisgui": five_axis, "scaragui": scara, "max5gui": max5,
+FORMULAS = {"xyzac-trt-gui": xyzac, "xyzbc-trt-gui": xyzbc, "xyzab-tdr-gui": xyzab, "5axisgui": five_axis,
+            "scaragui": scara, "max5gui": max5,
             "pumagui": links((0, 0, 0), (0, -90, 0), (300, 0, 70), (50, -90, 400), (0, 90, 0), (0, -90, 70)),
-            "puma560gui": links((0, 0, 0), (0, -90, 0), (431.8, 0, 149.1), (20.3, -90, 433.1), (0, 90, 0), (0, -90, 56.3)),
+            "puma560gui": links((0, 0, 0), (0, -90, 0), (431.8, 0, 149.1), (20.3, -90, 433.1), (0, 90, 0),
+                                (0, -90, 56.3)),
             "melfagui": links((0, 0, 350), (85, -90, 0), (280, 0, 0), (100, -90, 315), (0, 90, 0), (0, -90, 85)),
             "millturngui": mill_turn, "hbmgui": boring_mill, "maho600gui": maho, "scorbot-er-3": scorbot,
             "lineardelta": line_delta, "rotarydelta": rotary_delta, "hexagui": hexapod}
@@ -202,7 +207,8 @@ def examine(root, name: str) -> None:
         view.paint(200, 200)
         got = (np.linalg.inv(work.t) @ tip.t @ (0, 0, 0, 1))[:3]
         if not np.allclose(got, FORMULAS[name](p), atol=2e-2):
-            mistakes.append(f"{name} {dict(p)}: tool at {got.round(3)}, the kinematics says {np.round(FORMULAS[name](p), 3)}")
+            mistakes.append(f"{name} {dict(p)}: tool at {got.round(3)}, the kinematics says "
+                            f"{np.round(FORMULAS[name](p), 3)}")
 
     view.redraw()           # the window gets its size
     view.camera.zoom = 0.6
@@ -220,8 +226,10 @@ def examine(root, name: str) -> None:
         if pin in STILL.get(name, ()):
             continue
         old = p[pin]
-        p[pin] = not old if isinstance(old, bool) else old * 1.2 + 20 if name not in ("hexagui", "rotarydelta") else old * 1.1 + 2
-        if picture() == before and pin not in ("tool_diam", "tool_diameter", "tool-radius", "tool-x-offset", "tooldiameter", "lnkdx"):
+        p[pin] = (not old if isinstance(old, bool) else old * 1.2 + 20 if name not in ("hexagui", "rotarydelta")
+                  else old * 1.1 + 2)
+        if (picture() == before and pin not in ("tool_diam", "tool_diameter", "tool-radius", "tool-x-offset",
+                                                "tooldiameter", "lnkdx")):
             mistakes.append(f"{name}: nothing moves with {pin}")
         p[pin] = old
     if error := v.glGetError():

@@ -93,8 +93,10 @@ def transforms(b: Bench) -> None:
     x, y, z = (turn, 0), (turn, 1), (turn, 2)
     euler = {"1": 0, "2": 1, "3": 2}
     cases = [
-        ("Translate", lambda p: v.Translate(p, 1, 2, 3), move(1, 2, 3)), ("Rotate", lambda p: v.Rotate(p, 25, 0, 1, 0), turn(25, 1)),
-        ("Scale", lambda p: v.Scale(p, 1, 2, 3), size(1, 2, 3)), ("HalTranslate", lambda p: v.HalTranslate(p, c, "x", 1, 0, -1), move(2, 0, -2)),
+        ("Translate", lambda p: v.Translate(p, 1, 2, 3), move(1, 2, 3)),
+        ("Rotate", lambda p: v.Rotate(p, 25, 0, 1, 0), turn(25, 1)),
+        ("Scale", lambda p: v.Scale(p, 1, 2, 3), size(1, 2, 3)),
+        ("HalTranslate", lambda p: v.HalTranslate(p, c, "x", 1, 0, -1), move(2, 0, -2)),
         ("HalRotate", lambda p: v.HalRotate(p, c, "a", 2, 0, 0, 1), turn(60, 2)),
         ("HalVectorTranslate", lambda p: v.HalVectorTranslate(p, c, "x", 0, "z", 10), move(20, 0, -40)),
         ("HalVectorRotate", lambda p: v.HalVectorRotate(p, c, "a", -1, 1, 0, 0), turn(-30, 0)),
@@ -102,7 +104,8 @@ def transforms(b: Bench) -> None:
         ("HalShow off", lambda p: v.HalShow(p, c, True, "on", 1, 0.25), size(.25, .25, .25)),
         ("HalShow on", lambda p: v.HalShow(p, c, False, "on", 3, 0), size(3, 3, 3)),
         ("nested", lambda p: v.Translate([v.Rotate(p, 90, 0, 0, 1)], 5, 0, 0), move(5, 0, 0) @ turn(90, 2)),
-        ("pin as order", lambda p: v.HalRotateEuler(p, c, "a", 40, "c", "order"), turn(30, 2) @ turn(40, 1) @ turn(50, 0))]
+        ("pin as order", lambda p: v.HalRotateEuler(p, c, "a", 40, "c", "order"),
+         turn(30, 2) @ turn(40, 1) @ turn(50, 0))]
     for order in v.HalRotateEuler.ORDERS:
         want = np.identity(4)
         for angle, digit in zip((30, 40, 50), str(order)):
@@ -137,8 +140,9 @@ def shapes(b: Bench) -> None:
     c = b.comp
     c["x"], c["y"] = 2.0, 0.5
     pi = math.pi
-    for shape, volume in ((v.Box(0, 0, 0, 1, 2, 3), 6), (v.Box(c, 0, 0, 0, "x", 1, -1), 2), (v.BoxCentered(2, 3, 4), 24),
-                          (v.BoxCenteredXY(2, 2, 5), 20), (v.CylinderX(0, 1, 3, 1), 3 * pi), (v.CylinderY(0, 1, -3, 1), 3 * pi),
+    for shape, volume in ((v.Box(0, 0, 0, 1, 2, 3), 6), (v.Box(c, 0, 0, 0, "x", 1, -1), 2),
+                          (v.BoxCentered(2, 3, 4), 24), (v.BoxCenteredXY(2, 2, 5), 20),
+                          (v.CylinderX(0, 1, 3, 1), 3 * pi), (v.CylinderY(0, 1, -3, 1), 3 * pi),
                           (v.CylinderZ(c, 0, "y", "x", 0), pi * .25 * 2 / 3), (v.Sphere(1, 2, 3, 2), 4 / 3 * pi * 8),
                           (v.TriangleXY(0, 0, 2, 0, 0, 2, 0, 3), 6), (v.TriangleXZ(0, 0, 2, 0, 0, 2, 1, 3), 4),
                           (v.TriangleYZ(0, 0, 2, 0, 0, 2, 1, 2), 2), (v.ArcX(0, 1, 1, 2, 0, 90, 64), pi / 4 * 3)):
@@ -150,12 +154,14 @@ def shapes(b: Bench) -> None:
         t = points.reshape(-1, 3, 3)
         solid = np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6
         check(f"surface of {name}", abs(solid - volume) < 0.02 * volume, True)
-        check(f"normals of {name}", np.allclose(np.linalg.norm(normals, axis=1), 1, atol=0.2 if "Cyl" in name else 1e-6), True)
+        check(f"normals of {name}",
+              np.allclose(np.linalg.norm(normals, axis=1), 1, atol=0.2 if "Cyl" in name else 1e-6), True)
     group = v.Collection([v.Box(0, 0, 0, 1, 1, 1), v.Capture(), v.Collection([v.Box(0, 0, 0, 2, 1, 1)])])
     check("volume of a group", group.volume(), 3)
     group.set_volume(7)
     check("set_volume", group.volume(), 7)
-    for words, part in (((), "were given"), ((1, 2, 3), "were given"), (("x", 0, 0, 1, 1, 1), "names of pins need the component")):
+    for words, part in (((), "were given"), ((1, 2, 3), "were given"),
+                        (("x", 0, 0, 1, 1, 1), "names of pins need the component")):
         try:
             v.Box(*words)
             mistakes.append(f"Box{words} accepted")
@@ -173,12 +179,14 @@ def shapes(b: Bench) -> None:
             return -self.comp["x"], 0, 0, self.comp["y"]
     own = Tool(c)
     b.draw(own)
-    check("coords() of a subclass", (own.made[0].min(axis=0).round(6).tolist(), own.made[0].max(axis=0).round(6).tolist()),
+    check("coords() of a subclass",
+          (own.made[0].min(axis=0).round(6).tolist(), own.made[0].max(axis=0).round(6).tolist()),
           ([-.5, -.5, -2], [.5, .5, 0]))
     # a red box in the middle hides what is behind, and moves with its pin
     c["x"] = 0.0
     red = v.HalTranslate([v.Color((1, 0, 0, 1), [v.BoxCentered(4, 4, 4)])], c, "x", 1, 0, 0)
-    b.draw(v.Color((0, 1, 0, 1), [v.Translate([v.BoxCentered(4, 4, 4)], 0, 10, 0)]), red, v.Translate([v.BoxCentered(1, 1, 1)], 0, 0, -6))
+    b.draw(v.Color((0, 1, 0, 1), [v.Translate([v.BoxCentered(4, 4, 4)], 0, 10, 0)]), red,
+           v.Translate([v.BoxCentered(1, 1, 1)], 0, 0, -6))
     r, g, _ = b.pixel(200, 200)
     check("red before green", (r > 100, g < 50), (True, True))
     r, g, blue = b.pixel(200, 50)
@@ -199,8 +207,10 @@ def files(b: Bench, folder: str) -> None:
     obj = v.AsciiOBJ(data="# x\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvn 0 -1 0\nvt 0 0\nf 1//1 2//1 3//1\nf -3 -2 -1\n")
     check("OBJ", obj.arrays[1], np.array([[0, -1, 0]] * 6))
     b.draw(obj)
-    for kind, text, part in ((v.AsciiSTL, "facet normal 0 0 1\nvertex 0 x 0\n", "data:2: 'vertex 0 x 0' cannot be read"),
-                             (v.AsciiSTL, "vertex 0 0 0\n", "no three corners"), (v.AsciiOBJ, "v 0 0 0\nf 1 2 3\n", "data:2")):
+    for kind, text, part in ((v.AsciiSTL, "facet normal 0 0 1\nvertex 0 x 0\n",
+                              "data:2: 'vertex 0 x 0' cannot be read"),
+                             (v.AsciiSTL, "vertex 0 0 0\n", "no three corners"),
+                             (v.AsciiOBJ, "v 0 0 0\nf 1 2 3\n", "data:2")):
         try:
             kind(data=text)
             mistakes.append(f"accepted {text!r}")
@@ -212,8 +222,10 @@ def files(b: Bench, folder: str) -> None:
 def guides(b: Bench) -> None:
     c = b.comp
     c["a"] = c["b"] = 0.0
-    for part in (v.HalLine(c, "x", 0, 0, "a", "b", 0, 50), v.HalPlaneFromNormal(c, 0, 0, 0, "a", "b", 0), v.HalGridFromNormal(c, 0, 0, 0, 0, 0, 0),
-                 v.HalCoordsFromNormalAndDirection(c, 0, 0, 0, "a", 0, 0, 0, 0, "b", 10), v.HalGridFromNormalAndDirection(c, 0, 0, 0, 1, 0, 0, 1, 0, 0),
+    for part in (v.HalLine(c, "x", 0, 0, "a", "b", 0, 50), v.HalPlaneFromNormal(c, 0, 0, 0, "a", "b", 0),
+                 v.HalGridFromNormal(c, 0, 0, 0, 0, 0, 0),
+                 v.HalCoordsFromNormalAndDirection(c, 0, 0, 0, "a", 0, 0, 0, 0, "b", 10),
+                 v.HalGridFromNormalAndDirection(c, 0, 0, 0, 1, 0, 0, 1, 0, 0),
                  v.HalGrid(c)):
         b.draw(part)            # vectors without direction draw nothing and do no harm
         c["a"], c["b"] = 1.0, 1.0
@@ -260,7 +272,8 @@ def trace(b: Bench) -> None:
     view.tool, view.work = v.Capture(), v.Capture()
     for n in range(5):
         c["x"], c["a"] = n / 2, 30.0 * n
-        b.draw(v.HalTranslate([view.tool], c, "x", 1, 0, 0), v.HalRotate([v.Translate([view.work], 0, 1, 0)], c, "a", 1, 0, 0, 1))
+        b.draw(v.HalTranslate([view.tool], c, "x", 1, 0, 0),
+               v.HalRotate([v.Translate([view.work], 0, 1, 0)], c, "a", 1, 0, 0, 1))
         b.draw(*view.model.parts[1:])
     want = [(move(0, -1, 0) @ turn(-30.0 * n, 2) @ (n / 2, 0, 0, 1))[:3] for n in range(5)]
     check("trace in the frame of the work", np.array(view.trace.points), np.array(want))
@@ -272,15 +285,17 @@ def trace(b: Bench) -> None:
         view.tool.t = move(n * 0.01, 0, 0)
         view.work.t = np.identity(4)
         view.trace.add(view.tool, view.work)
-    check("the oldest points go", (len(view.trace.points) <= MAX_TRACE, round(view.trace.points[-1][0], 2)), (True, round((MAX_TRACE + 9) * .01, 2)))
+    check("the oldest points go", (len(view.trace.points) <= MAX_TRACE, round(view.trace.points[-1][0], 2)),
+          (True, round((MAX_TRACE + 9) * .01, 2)))
 
 
 def directions(b: Bench) -> None:
     """What lat and lon of main() show: 0 looks down along z, x to the right; lat -90 has z up; lon turns about z."""
     camera = b.view.camera
     before = camera.lat, camera.lon
-    for lat, lon, place, x, y in ((0, 0, (4, 0, 0), 300, 200), (0, 0, (0, 4, 0), 200, 300), (-90, 0, (0, 0, 4), 200, 300),
-                                  (-90, 0, (4, 0, 0), 300, 200), (0, 90, (4, 0, 0), 200, 300), (-90, 90, (0, -4, 0), 300, 200)):
+    for lat, lon, place, x, y in ((0, 0, (4, 0, 0), 300, 200), (0, 0, (0, 4, 0), 200, 300),
+                                  (-90, 0, (0, 0, 4), 200, 300), (-90, 0, (4, 0, 0), 300, 200),
+                                  (0, 90, (4, 0, 0), 200, 300), (-90, 90, (0, -4, 0), 300, 200)):
         camera.lat, camera.lon = lat, lon
         b.draw(v.Translate([v.BoxCentered(1, 1, 1)], *place))
         check(f"{place} at lat {lat}, lon {lon} is seen", max(b.pixel(x, y)) > 60, True)
@@ -297,7 +312,8 @@ def mouse(b: Bench) -> None:
         b.root.update()
 
     def now() -> tuple:
-        return round(camera.lat, 3), round(camera.lon, 3), round(camera.pan_x, 3), round(camera.pan_y, 3), round(camera.zoom, 4)
+        return (round(camera.lat, 3), round(camera.lon, 3), round(camera.pan_x, 3), round(camera.pan_y, 3),
+                round(camera.zoom, 4))
     camera.lat = camera.lon = 0
     drag(1)
     check("left drag pans", (now()[:2], camera.pan_x > 0, camera.pan_y > 0), ((0, 0), True, True))

@@ -35,7 +35,8 @@ class Record:
 
 def halcmd(*words):
     """Runs halcmd; ScopeError with what it said."""
-    done = clock.run(["halcmd", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = clock.run(["halcmd", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                     stderr=subprocess.STDOUT, text=True)
     if done.returncode:
         raise ScopeError(done.stdout.strip() or f"halcmd {' '.join(words)} failed")
 
@@ -83,7 +84,8 @@ class Acquisition:
         self.samples = self.scope.buf_len
 
     def link(self, thread):
-        """Makes a thread run the function, and no other. The realtime part is loaded again when it has gone meanwhile."""
+        """Makes a thread run the function, and no other. The realtime part is loaded again when it has gone
+        meanwhile."""
         if not hal.query.funct(FUNCTION):
             self._open()
             self.scope.reset()
@@ -134,7 +136,8 @@ class Acquisition:
 
     def _resolve(self):
         """Values move when pins are linked: says again where they are."""
-        self.missing = {n for place, (n, c) in enumerate(zip(self._numbers, self._channels)) if not self.scope.source(place, c.kind, c.name)}
+        self.missing = {n for place, (n, c) in enumerate(zip(self._numbers, self._channels))
+                        if not self.scope.source(place, c.kind, c.name)}
 
     def retrigger(self, settings):
         """The trigger's level, edge or mode changed while a record is taken."""
@@ -149,7 +152,8 @@ class Acquisition:
         self.scope.reset()
 
     def close(self):
-        """The memory of scope_rt is given back while the component is still there: nothing else can be done with this."""
+        """The memory of scope_rt is given back while the component is still there: nothing
+        else can be done with this."""
         self.stop()
         self.scope = None
 

@@ -73,7 +73,9 @@ def _reader(s, resolve):
     share = _number(float, 0, 1, "position must be 0 to 1")
     flag = _number(int, 0, 1, "value must be 0 or 1")
     return {
-        "samples": put(s, "samples", _number(int, st.MIN_SAMPLES, st.MAX_SAMPLES, f"samples must be {st.MIN_SAMPLES} to {st.MAX_SAMPLES}")),
+        "samples": put(s, "samples",
+                       _number(int, st.MIN_SAMPLES, st.MAX_SAMPLES,
+                               f"samples must be {st.MIN_SAMPLES} to {st.MAX_SAMPLES}")),
         "thread": put(s, "thread", str),
         "maxchan": _number(int, 1, st.CHANNELS, "channels must be 1 to 16"),
         "hmult": put(s, "mult", _number(int, 1, st.MAX_MULT, f"multiplier must be 1 to {st.MAX_MULT}")),

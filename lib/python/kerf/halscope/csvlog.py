@@ -47,7 +47,8 @@ def _value(value, is_bit):
 def text(period, channels, values):
     """channels: Channel objects, values: an array of doubles each, of the same length."""
     out = [f"# Sampling period is {period} ns", ";".join(c.name for c in channels),
-           "# Position: " + ";".join(f"{c.vpos:.6f}" for c in channels), "# Scale: " + ";".join(str(c.vscale) for c in channels)]
+           "# Position: " + ";".join(f"{c.vpos:.6f}" for c in channels),
+           "# Scale: " + ";".join(str(c.vscale) for c in channels)]
     bits = [c.type == st.BIT for c in channels]
     for row in zip(*values):
         out.append(";".join(_value(v, bit) for v, bit in zip(row, bits)))

@@ -24,11 +24,13 @@ class RateDialog(tk.Toplevel):
         self._threads = acquire.threads()
         body = ttk.Frame(self, padding=10)
         body.pack(fill="both", expand=True)
-        text = (_("The realtime sampling function is in no thread. Choose the thread, the rate\nand the number of samples, then OK.")
+        text = (_("The realtime sampling function is in no thread. Choose the thread, the rate\n"
+                  "and the number of samples, then OK.")
                 if first else _("Choose the thread, the rate and the number of samples."))
         ttk.Label(body, text=text).grid(columnspan=3, sticky="w", pady=(0, 8))
         ttk.Label(body, text=_("Thread:")).grid(row=1, column=0, sticky="nw")
-        self.list = tk.Listbox(body, height=max(3, min(6, len(self._threads))), width=40, exportselection=False, activestyle="none")
+        self.list = tk.Listbox(body, height=max(3, min(6, len(self._threads))), width=40, exportselection=False,
+                               activestyle="none")
         for name, period in self._threads:
             self.list.insert("end", f"{name}  ({engineering(period * 1e-9, 's')})")
         self.list.grid(row=1, column=1, columnspan=2, sticky="ew")
@@ -36,11 +38,13 @@ class RateDialog(tk.Toplevel):
         self.mult, self.samples = tk.StringVar(value=str(settings.mult)), tk.StringVar(value=str(samples))
         self.period_text, self.rate_text = tk.StringVar(), tk.StringVar()
         rows = ((_("Sample Period:"), self.period_text, None), (_("Sample Rate:"), self.rate_text, None),
-                (_("Multiplier:"), self.mult, (1, st.MAX_MULT, 1)), (_("Samples:"), self.samples, (st.MIN_SAMPLES, st.MAX_SAMPLES, 1000)))
+                (_("Multiplier:"), self.mult, (1, st.MAX_MULT, 1)),
+                (_("Samples:"), self.samples, (st.MIN_SAMPLES, st.MAX_SAMPLES, 1000)))
         for row, (title, variable, limits) in enumerate(rows, 2):
             ttk.Label(body, text=title).grid(row=row, column=0, sticky="w", pady=2, padx=(0, 6))
             if limits:
-                w = ttk.Spinbox(body, textvariable=variable, from_=limits[0], to=limits[1], increment=limits[2], width=12)
+                w = ttk.Spinbox(body, textvariable=variable, from_=limits[0], to=limits[1],
+                                increment=limits[2], width=12)
                 variable.trace_add("write", lambda *_: self._show())
             else:
                 w = ttk.Label(body, textvariable=variable, font="TkFixedFont")
@@ -88,11 +92,16 @@ class RateDialog(tk.Toplevel):
     def accept(self):
         name, _period, mult, samples = self._values()
         if not name:
-            messagebox.showerror(self.title(), _("Choose a thread.") if self._threads else _("There are no realtime threads."), parent=self)
+            messagebox.showerror(self.title(),
+                                 _("Choose a thread.") if self._threads else _("There are no realtime threads."),
+                                 parent=self)
         elif not mult:
-            messagebox.showerror(self.title(), _("The multiplier must be 1 to %s, the sample period at most 1 s.") % st.MAX_MULT, parent=self)
+            messagebox.showerror(self.title(),
+                                 _("The multiplier must be 1 to %s, the sample period at most 1 s.") % st.MAX_MULT,
+                                 parent=self)
         elif not samples:
-            messagebox.showerror(self.title(), _("Samples must be %s to %s.") % (st.MIN_SAMPLES, st.MAX_SAMPLES), parent=self)
+            messagebox.showerror(self.title(), _("Samples must be %s to %s.") % (st.MIN_SAMPLES, st.MAX_SAMPLES),
+                                 parent=self)
         else:
             self.destroy()
             self._done(name, mult, samples)

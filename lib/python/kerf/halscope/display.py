@@ -20,7 +20,8 @@ class Display(tk.Canvas):
     changed() after any change of the settings that needs no new record, retrigger()."""
 
     def __init__(self, master, owner, style):
-        super().__init__(master, background=BACK, highlightthickness=0, width=style.px(640), height=style.px(400), cursor="crosshair")
+        super().__init__(master, background=BACK, highlightthickness=0, width=style.px(640), height=style.px(400),
+                         cursor="crosshair")
         self._owner, self._style = owner, style
         self._spans = {}             # {number: {column: (top, bottom)}}: where the traces are
         self._drag = None            # what the left button moves
@@ -77,7 +78,9 @@ class Display(tk.Canvas):
             self.create_line(0, i * height / geo.DIVISIONS, width, i * height / geo.DIVISIONS, fill=colour)
         h = self.horizontal()
         s = self._owner.settings
-        numbers = [n for n in self._owner.shown() if n != s.selected] + [n for n in self._owner.shown() if n == s.selected]
+        numbers = [n for n in self._owner.shown() if n != s.selected] + [n
+                                                                         for n in self._owner.shown()
+                                                                         if n == s.selected]
         for number in numbers:
             self._draw_trace(number, h)
         for number in numbers:
@@ -87,7 +90,8 @@ class Display(tk.Canvas):
         self._draw_readout()
         text = self._owner.state_text()
         if text:
-            state = self.create_text(width - 8, 8, anchor="ne", text=text, fill=WORDS, font="TkDefaultFont", tags="state", width=width - 16)
+            state = self.create_text(width - 8, 8, anchor="ne", text=text, fill=WORDS, font="TkDefaultFont",
+                                     tags="state", width=width - 16)
             figures = self.bbox("measured")
             if figures and figures[2] > self.bbox(state)[0] - 8:        # no room beside them
                 self.move(state, 0, figures[3] - 4)
@@ -107,14 +111,17 @@ class Display(tk.Canvas):
         if len(points) < 4:
             return
         selected = number == self._owner.settings.selected
-        self.create_line(points, fill=COLOURS[number - 1], width=self._style.px(2 if selected else 1), tags=("trace", f"trace{number}"))
+        self.create_line(points, fill=COLOURS[number - 1], width=self._style.px(2 if selected else 1),
+                         tags=("trace", f"trace{number}"))
         self._spans[number] = _spans(points, width)
 
     def _draw_baseline(self, number):
         channel, height = self._owner.settings.channel(number), self.size[1]
         y, r = geo.baseline(channel, height), self._style.px(5)
-        self.create_polygon(0, y - r, 2 * r, y, 0, y + r, fill=COLOURS[number - 1], tags=("baseline", f"baseline{number}"))
-        self.create_text(2 * r + 3, y, anchor="w", text=str(number), fill=COLOURS[number - 1], font="TkDefaultFont", tags="baseline")
+        self.create_polygon(0, y - r, 2 * r, y, 0, y + r, fill=COLOURS[number - 1],
+                            tags=("baseline", f"baseline{number}"))
+        self.create_text(2 * r + 3, y, anchor="w", text=str(number), fill=COLOURS[number - 1], font="TkDefaultFont",
+                         tags="baseline")
 
     def _trigger_mark(self, h):
         """Middle of the mark of the edge."""
@@ -142,13 +149,15 @@ class Display(tk.Canvas):
         if self._mark is not None:
             x = self._column(h, self._mark)
             self.create_line(x, 0, x, height, fill=WORDS, dash=(8, 4), tags="mark")
-        found = measure(record.values[number], h.start, h.sample(width)) if number and record and number in record.values else None
+        found = (measure(record.values[number], h.start, h.sample(width))
+                 if number and record and number in record.values else None)
         if found:
             low, high, mean, period = found
             text = _("least %.6g  greatest %.6g  p-p %.6g  mean %.6g") % (low, high, high - low, mean)
             if period:
                 text += "  f " + geo.engineering(1 / (period * h.period), "Hz")
-            self.create_text(8, 8, anchor="nw", text=text, fill=COLOURS[number - 1], font="TkFixedFont", tags="measured", width=width - 16)
+            self.create_text(8, 8, anchor="nw", text=text, fill=COLOURS[number - 1], font="TkFixedFont",
+                             tags="measured", width=width - 16)
 
     # ---- The mouse
 
@@ -195,7 +204,8 @@ class Display(tk.Canvas):
             self._drag = "vpos" if s.selected else None
             return
         shown = self._owner.shown()
-        on = [n for n in shown if event.x <= self._style.px(24) and abs(geo.baseline(s.channel(n), height) - event.y) <= tolerance]
+        on = [n for n in shown if event.x <= self._style.px(24)
+              and abs(geo.baseline(s.channel(n), height) - event.y) <= tolerance]
         if on:
             self._owner.select(on[0])
             self._drag = "vpos"
@@ -263,8 +273,11 @@ class Display(tk.Canvas):
         text = "f(% 8.5f) = % 8.5f (ddt % 8.5f)" % found
         if other := self._mark is not None and self.readout(self._column(self.horizontal(), self._mark)):
             far = found[0] - other[0]
-            text += "\n" + _("from the mark: %.6g s (%s), %.6g") % (far, geo.engineering(1 / abs(far), "Hz") if far else "----", found[1] - other[1])
-        self.create_text(8, self.size[1] - 8, anchor="sw", text=text, fill=colour, font="TkFixedFont", tags="readout", width=self.size[0] - 16)
+            text += "\n" + _("from the mark: %.6g s (%s), %.6g") % (far,
+                                                                    geo.engineering(1 / abs(far), "Hz") if far
+                                                                    else "----", found[1] - other[1])
+        self.create_text(8, self.size[1] - 8, anchor="sw", text=text, fill=colour, font="TkFixedFont", tags="readout",
+                         width=self.size[0] - 16)
 
 
 def _spans(points, width):

@@ -16,7 +16,8 @@ class _Group(ttk.Labelframe):
 
     def slider(self, low, high, act, **options):
         """A slider that calls act(value) only when the user moves it."""
-        return ttk.Scale(self, from_=low, to=high, command=lambda v: None if self._showing else act(float(v)), **options)
+        return ttk.Scale(self, from_=low, to=high, command=lambda v: None if self._showing else act(float(v)),
+                         **options)
 
     def show(self):
         self._showing = True
@@ -55,8 +56,10 @@ class Horizontal(_Group):
         self.zoom.set(s.zoom)
         self.pos.set(s.pos)
         period, length, _trigger = self.owner.frame()
-        self.per_div.configure(text=_("%s per div") % geo.engineering(self.owner.display.horizontal().per_div, 's') if period else "----")
-        self.rate.configure(text=_("%s samples\nat %s") % (length, geo.engineering(1e9 / period, 'Hz') if period else '----'))
+        self.per_div.configure(text=_("%s per div") % geo.engineering(self.owner.display.horizontal().per_div, 's')
+                               if period else "----")
+        self.rate.configure(text=_("%s samples\nat %s")
+                            % (length, geo.engineering(1e9 / period, 'Hz') if period else '----'))
         self.progress()
 
     def progress(self):
@@ -125,7 +128,8 @@ class Trigger(_Group):
         self.source.configure(text=_("Source: %s") % t.source if t.source else _("Source: none"))
         self.mode.configure(text=_("Auto") if t.auto else _("Normal"))
         self.edge.configure(text=_("Rising") if t.rising else _("Falling"))
-        self.text.configure(text=_("Level %.6g") % st.trigger_level(s.channel(t.source), t.level) if t.source else _("No trigger source"))
+        self.text.configure(text=_("Level %.6g") % st.trigger_level(s.channel(t.source), t.level) if t.source
+                            else _("No trigger source"))
 
 
 class Vertical(_Group):
@@ -194,8 +198,8 @@ class Channels(ttk.Frame):
         self.name.pack(side="left", padx=style.px(8), fill="x", expand=True)
         self.buttons = []
         for n in range(1, st.CHANNELS + 1):
-            b = tk.Button(self, text=str(n), width=2, padx=style.px(2), pady=style.roomy(2, 6), borderwidth=0, highlightthickness=style.px(2),
-                          command=lambda n=n: owner.channel_button(n))
+            b = tk.Button(self, text=str(n), width=2, padx=style.px(2), pady=style.roomy(2, 6), borderwidth=0,
+                          highlightthickness=style.px(2), command=lambda n=n: owner.channel_button(n))
             b.pack(side="left", padx=1)
             self.buttons.append(b)
 
@@ -208,4 +212,5 @@ class Channels(ttk.Frame):
                         highlightbackground=c["ink"] if n == s.selected else c["line"], highlightcolor=c["ink"])
         channel = self.owner.selected_channel()
         gone = s.selected in self.owner.missing
-        self.name.configure(text=_("%s: not in HAL") % channel.name if gone else channel.name if channel else "----", style="Bad.TLabel" if gone else "TLabel")
+        self.name.configure(text=_("%s: not in HAL") % channel.name if gone else channel.name if channel else "----",
+                            style="Bad.TLabel" if gone else "TLabel")

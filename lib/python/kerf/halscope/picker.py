@@ -8,7 +8,8 @@ import hal
 
 from ..language import _, N_
 
-TABS = (("pin", N_("Pins"), hal.query.pins), ("sig", N_("Signals"), hal.query.signals), ("param", N_("Parameters"), hal.query.params))
+TABS = (("pin", N_("Pins"), hal.query.pins), ("sig", N_("Signals"), hal.query.signals),
+        ("param", N_("Parameters"), hal.query.params))
 
 
 class SourcePicker(tk.Toplevel):

@@ -18,8 +18,9 @@ from .picker import SourcePicker
 POLL_MS = 50
 LINK_MS = 1000
 SIZE, MINIMUM = (1000, 660), (760, 520)
-STATES = {rt.IDLE: "", rt.INIT: N_("WAITING FOR THREAD"), rt.PRE_TRIG: N_("PRE-TRIG"), rt.TRIG_WAIT: N_("WAITING FOR TRIGGER"),
-          rt.POST_TRIG: N_("TRIGGERED"), rt.DONE: N_("DONE"), rt.RESET: "", rt.ROLL: N_("ROLL")}
+STATES = {rt.IDLE: "", rt.INIT: N_("WAITING FOR THREAD"), rt.PRE_TRIG: N_("PRE-TRIG"),
+          rt.TRIG_WAIT: N_("WAITING FOR TRIGGER"), rt.POST_TRIG: N_("TRIGGERED"), rt.DONE: N_("DONE"), rt.RESET: "",
+          rt.ROLL: N_("ROLL")}
 CONFIG_TYPES = ((_("Configurations"), "*.halscope"), (_("All files"), "*"))
 LOG_TYPES = ((_("Log files"), "*.csv"), (_("All files"), "*"))
 
@@ -40,9 +41,11 @@ class Screen:
         self.display = Display(body, self, style)
         self.horizontal = panels.Horizontal(body, self, style)
         right = ttk.Frame(body)
-        self.run_mode, self.trigger, self.vertical = (kind(right, self, style) for kind in (panels.RunMode, panels.Trigger, panels.Vertical))
+        self.run_mode, self.trigger, self.vertical = (kind(right, self, style)
+                                                      for kind in (panels.RunMode, panels.Trigger, panels.Vertical))
         self.channels = panels.Channels(body, self, style)
-        self.channels.name.bind("<Button-1>", lambda _e: self.settings.selected and self.ask_source(self.settings.selected))
+        self.channels.name.bind("<Button-1>",
+                                lambda _e: self.settings.selected and self.ask_source(self.settings.selected))
         self.horizontal.grid(row=0, column=0, columnspan=2, sticky="ew")
         self.display.grid(row=1, column=0, sticky="nsew", pady=style.px(6))
         right.grid(row=1, column=1, sticky="ns", padx=(style.px(6), 0))
@@ -61,8 +64,10 @@ class Screen:
     def _menus(self):
         bar = tk.Menu(self.root)
         files, help_ = tk.Menu(bar, tearoff=False), tk.Menu(bar, tearoff=False)
-        for label, act in ((_("Open Configuration..."), self.open_configuration), (_("Save Configuration..."), self.save_configuration), (None, None),
-                           (_("Open Log File"), self.open_log), (_("Save Log File"), self.save_log), (None, None), (_("Quit"), self.quit)):
+        for label, act in ((_("Open Configuration..."), self.open_configuration),
+                           (_("Save Configuration..."), self.save_configuration), (None, None),
+                           (_("Open Log File"), self.open_log), (_("Save Log File"), self.save_log), (None, None),
+                           (_("Quit"), self.quit)):
             if label:
                 files.add_command(label=label, command=act, accelerator="Ctrl-Q" if act == self.quit else "")
             else:
@@ -128,7 +133,8 @@ class Screen:
         s.run_mode = st.STOP
         self.acq.stop()
         if mode != st.STOP and not s.enabled():
-            messagebox.showerror(_("No channels selected"), _("You need to choose at least one channel."), parent=self.root)
+            messagebox.showerror(_("No channels selected"), _("You need to choose at least one channel."),
+                                 parent=self.root)
         elif mode != st.STOP and self._may_overwrite():
             s.run_mode = mode
             try:
@@ -220,7 +226,8 @@ class Screen:
             self.ask_source(number)
 
     def ask_source(self, number):
-        self.picker = SourcePicker(self.root, number, self.settings.channel(number), lambda kind, name: self.set_source(number, kind, name))
+        self.picker = SourcePicker(self.root, number, self.settings.channel(number),
+                                   lambda kind, name: self.set_source(number, kind, name))
 
     def set_source(self, number, kind, name):
         found = acquire.source_type(kind, name)
@@ -243,7 +250,8 @@ class Screen:
         menu = tk.Menu(self.root, tearoff=False)
         menu.add_command(label=_("none"), command=lambda: self.set_trigger_source(0))
         for n in self.settings.enabled():
-            menu.add_command(label=f"{n}: {self.settings.channel(n).name}", command=lambda n=n: self.set_trigger_source(n))
+            menu.add_command(label=f"{n}: {self.settings.channel(n).name}",
+                             command=lambda n=n: self.set_trigger_source(n))
         button = self.trigger.source
         menu.tk_popup(button.winfo_rootx(), button.winfo_rooty() + button.winfo_height())
 
@@ -276,7 +284,8 @@ class Screen:
         if samples != self.acq.samples:
             s.samples = samples
             messagebox.showinfo(_("Sample Count Changed - Restart Required"),
-                                _("The number of samples is saved with the configuration.\nIt is used when the scope is loaded again:\n"
+                                _("The number of samples is saved with the configuration.\n"
+                                  "It is used when the scope is loaded again:\n"
                                 "close halscope, halcmd unloadrt scope_rt, start halscope."), parent=self.root)
         if self.log is None:
             self.record = None
@@ -313,7 +322,8 @@ class Screen:
         self.changed()
 
     def save_configuration(self):
-        path = filedialog.asksaveasfilename(parent=self.root, title=_("Save Configuration"), filetypes=CONFIG_TYPES, defaultextension=".halscope")
+        path = filedialog.asksaveasfilename(parent=self.root, title=_("Save Configuration"), filetypes=CONFIG_TYPES,
+                                            defaultextension=".halscope")
         if path:
             try:
                 configfile.save(path, self.settings)
@@ -355,7 +365,8 @@ class Screen:
         if self.record is None or not self.record.count:
             messagebox.showerror("halscope", _("There is no record to save."), parent=self.root)
             return
-        path = filedialog.asksaveasfilename(parent=self.root, title=_("Save Log File"), filetypes=LOG_TYPES, defaultextension=".csv")
+        path = filedialog.asksaveasfilename(parent=self.root, title=_("Save Log File"), filetypes=LOG_TYPES,
+                                            defaultextension=".csv")
         if path:
             try:
                 self.write_log(path)
@@ -364,7 +375,8 @@ class Screen:
 
     def write_log(self, path):
         numbers = [n for n in self.shown() if n in self.record.values]
-        csvlog.save(path, self.record.period, [self.settings.channel(n) for n in numbers], [self.record.values[n] for n in numbers])
+        csvlog.save(path, self.record.period, [self.settings.channel(n) for n in numbers],
+                    [self.record.values[n] for n in numbers])
 
     def quit(self):
         self.root.destroy()

@@ -62,7 +62,8 @@ class PinHistogram:
             try:
                 halcmd("loadrt", self.module, f"count={INSTANCES}", *keys)
             except ToolError:           # another histogram that starts now may load it, too
-                if not clock.wait_until(lambda: hal.component_exists(self.module) and hal.component_is_ready(self.module), 1.0, 0.02):
+                if not clock.wait_until(lambda: hal.component_exists(self.module)
+                                        and hal.component_is_ready(self.module), 1.0, 0.02):
                     raise
             net = Netlist.running()
         self.component, self.index = self._take_index(net)
@@ -167,7 +168,8 @@ def show_window(model: PinHistogram, o: argparse.Namespace):
     def read(_bins):
         model.read()
         text = model.summary() + ("   " + _("off chart: - %d  + %d") % (model.low, model.high) if o.show else "")
-        counts = [model.low + model.counts[0], *model.counts[1:-1], model.high + model.counts[-1]] if len(model.counts) > 1 else model.counts
+        counts = ([model.low + model.counts[0], *model.counts[1:-1], model.high + model.counts[-1]]
+                  if len(model.counts) > 1 else model.counts)
         return [Bars(counts, o.minvalue, o.minvalue + o.nbins * o.binsize, "", text)]
 
     root = tkstyle.open_display("hal-histogram", "Hal-histogram")

@@ -73,11 +73,14 @@ class Window:
             ttk.Label(box, text=text, anchor="e").grid(row=1, column=column, padx=px(6), sticky="e")
             box.columnconfigure(column, weight=1)
         for row, letter in enumerate(worst.letters, 2):
-            ttk.Label(box, text=_("%s thread (%g µs):") % (names[letter].capitalize(), periods[letter] / 1000)).grid(row=row, column=0, sticky="w")
+            ttk.Label(box, text=_("%s thread (%g µs):")
+                      % (names[letter].capitalize(), periods[letter] / 1000)).grid(row=row, column=0, sticky="w")
             for column in (1, 2, 3):
-                cell = self.cells[letter, column] = ttk.Label(box, text="0", width=14, relief="sunken", anchor="e", style="Value.TLabel", padding=px(4))
+                cell = self.cells[letter, column] = ttk.Label(box, text="0", width=14, relief="sunken", anchor="e",
+                                                              style="Value.TLabel", padding=px(4))
                 cell.grid(row=row, column=column, padx=px(6), pady=px(2), sticky="ew")
-        ttk.Label(box, text="\n".join(facts(platform) + platform.doubts()), justify="left", wraplength=px(560)).grid(row=8, columnspan=4, sticky="w", pady=px(8))
+        ttk.Label(box, text="\n".join(facts(platform) + platform.doubts()), justify="left",
+                  wraplength=px(560)).grid(row=8, columnspan=4, sticky="w", pady=px(8))
         self.button = ttk.Button(box, text=_("Reset Statistics"), command=self.reset)
         self.button.grid(row=9, columnspan=4)
         root.after(PERIOD_MS, self.tick)

@@ -57,7 +57,8 @@ def options(arguments: list[str]) -> argparse.Namespace:
                                 description="Strip chart of thread latencies.")
     p.add_argument("-b", "--base", type=int, default=25000, metavar="ns", help="base period (25000)")
     p.add_argument("-s", "--servo", type=int, default=1000000, metavar="ns", help="servo period (1000000)")
-    p.add_argument("-t", "--time", type=int, default=1000, metavar="ms", help="time between points (1000; 100 to 10000)")
+    p.add_argument("-t", "--time", type=int, default=1000, metavar="ms",
+                   help="time between points (1000; 100 to 10000)")
     kind = p.add_mutually_exclusive_group()
     kind.add_argument("--relative", action="store_true", default=True, help="times since the start (default)")
     kind.add_argument("--actual", dest="relative", action="store_false", help="times of day")

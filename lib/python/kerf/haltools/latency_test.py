@@ -65,9 +65,11 @@ def keep_worst(path: Path, jitter_ns: int) -> int:
 
 
 def end_panel():
-    """Ends the panel, also one that is just starting, and with it the session in order; for as long as this program runs."""
+    """Ends the panel, also one that is just starting, and with it the session in order; for as
+    long as this program runs."""
     while True:
-        subprocess.run(["halcmd", "unloadusr", "lat"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        subprocess.run(["halcmd", "unloadusr", "lat"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL, check=False)
         time.sleep(0.2)
 
 

@@ -57,8 +57,8 @@ class Chart(tk.Canvas):
     """Bars with a scale below; title and figures above."""
 
     def __init__(self, parent, style, title: str):
-        super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"], highlightthickness=1,
-                         highlightbackground=style.colours["line"])
+        super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"],
+                         highlightthickness=1, highlightbackground=style.colours["line"])
         self.style, self.title, self.bars, self.logarithmic = style, title, None, True
         self.bind("<Configure>", lambda event: self.draw())
 
@@ -76,12 +76,14 @@ class Chart(tk.Canvas):
             return
         bars = self.bars
         self.create_text(px(8), px(26), anchor="nw", text=bars.text, font="TkDefaultFont", fill=ink, tags="figures")
-        self.create_text(width - px(8), px(6), anchor="ne", text=_("highest bar: %d") % max(bars.counts, default=0), font="TkDefaultFont", fill=ink)
+        self.create_text(width - px(8), px(6), anchor="ne", text=_("highest bar: %d") % max(bars.counts, default=0),
+                         font="TkDefaultFont", fill=ink)
         step = (width - 2 * margin) / max(1, len(bars.counts))
         for i, h in enumerate(bar_heights(bars.counts, floor - ceiling, self.logarithmic)):
             if h > 0:
                 x = margin + i * step
-                self.create_rectangle(x, floor - max(h, 1), x + max(step, 1), floor, fill=self.style.colours["chart"], width=0, tags="bar")
+                self.create_rectangle(x, floor - max(h, 1), x + max(step, 1), floor, fill=self.style.colours["chart"],
+                                      width=0, tags="bar")
         self.create_line(margin, floor, width - margin, floor, fill=ink)
         for part in range(5):
             x = margin + part * (width - 2 * margin) / 4
@@ -117,7 +119,8 @@ class Histograms:
         """Cells with what decides whether the figures say anything."""
         row = ttk.Frame(self.root)
         row.pack(side="bottom", fill="x")
-        good_facts = (platform.is_realtime and not platform.virtual_clock, platform.governors == ["performance"], bool(platform.isolated))
+        good_facts = (platform.is_realtime and not platform.virtual_clock, platform.governors == ["performance"],
+                      bool(platform.isolated))
         for text, good in zip(facts(platform), good_facts):
             ttk.Label(row, text=text, relief="sunken", padding=self.style.px(3), anchor="center",
                       foreground=self.style.colours["good" if good else "bad"]).pack(side="left", fill="x", expand=True)
@@ -179,7 +182,8 @@ class Histograms:
     def start_gears(self):
         """One more program that draws."""
         if shutil.which(GEARS):
-            self.gears.append(subprocess.Popen([GEARS], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+            self.gears.append(subprocess.Popen([GEARS], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                               stderr=subprocess.DEVNULL))
             self.gear_count.configure(text=str(len(self.gears)))
         else:
             self.buttons["Glxgears"].configure(state="disabled", text=_("no %s") % GEARS)
@@ -195,8 +199,9 @@ class Histograms:
         except (ImportError, OSError) as error:
             self.elapsed.configure(text=_("no picture: %s") % error)
             return
-        name = filedialog.asksaveasfilename(parent=self.root, initialdir=folder if folder.is_dir() else Path.home(), defaultextension=".png",
-                                            initialfile=f"{self.root.title()}.png", filetypes=((_("Pictures"), "*.png"),))
+        name = filedialog.asksaveasfilename(parent=self.root, initialdir=folder if folder.is_dir() else Path.home(),
+                                            defaultextension=".png", initialfile=f"{self.root.title()}.png",
+                                            filetypes=((_("Pictures"), "*.png"),))
         if name:
             picture.save(name)
 
@@ -242,8 +247,12 @@ def latency_bars(meter, show_tails: bool):
 def show_histograms(meter, o, platform):
     """The window of latency-histogram."""
     root = tkstyle.open_display("latency-histogram", "Latency-histogram")
-    processor = next((line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), "")
-    lines = [_("%s (%s), kernel %s") % (processor or _("processor"), os.cpu_count(), platform.kernel)] + platform.doubts()
-    window = Histograms(root, "latency-histogram", lines, o.text, [_("%s thread (%d ns)") % (t.thread, t.period_ns) for t in meter.figures],
-                        latency_bars(meter, o.show), meter.reset, bool(o.logscale), max(t.bins for t in meter.figures), platform)
+    processor = next((line.split(":", 1)[1].strip()
+                      for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), "")
+    lines = [_("%s (%s), kernel %s")
+             % (processor or _("processor"), os.cpu_count(), platform.kernel)] + platform.doubts()
+    window = Histograms(root, "latency-histogram", lines, o.text,
+                        [_("%s thread (%d ns)") % (t.thread, t.period_ns) for t in meter.figures],
+                        latency_bars(meter, o.show), meter.reset, bool(o.logscale),
+                        max(t.bins for t in meter.figures), platform)
     run(window, o.seconds)

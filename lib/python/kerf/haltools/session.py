@@ -94,7 +94,8 @@ def run_tool(program: str, work, own_session: bool) -> int:
 
 
 def each_second(lines, seconds: int, pause_s: float = 1.0):
-    """Prints lines(elapsed seconds) once a second; `seconds` 0: for ever. pause_s: less where lines() takes time itself."""
+    """Prints lines(elapsed seconds) once a second; `seconds` 0: for ever. pause_s: less where
+    lines() takes time itself."""
     start = clock.now()
     while True:
         clock.sleep(pause_s)
@@ -172,7 +173,8 @@ class Platform:
         if self.virtual_clock:
             found.append(_("time is simulated: these figures say nothing about latency"))
         if not self.is_realtime:
-            found.append(_("no realtime scheduling (%s): expect latencies of milliseconds; see 'realtime verify'") % self.realtime)
+            found.append(_("no realtime scheduling (%s): expect latencies of milliseconds; see 'realtime verify'")
+                         % self.realtime)
         slow = [g for g in self.governors if g not in ("performance",)]
         if slow:
             found.append(_("processor governor is %s, not performance") % ",".join(slow))

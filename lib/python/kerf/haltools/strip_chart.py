@@ -25,8 +25,8 @@ class Strip(tk.Canvas):
     """Two moving lines: values, and the largest one so far; times (s) below, as label(time) writes them."""
 
     def __init__(self, parent, style, title):
-        super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"], highlightthickness=1,
-                         highlightbackground=style.colours["line"])
+        super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"],
+                         highlightthickness=1, highlightbackground=style.colours["line"])
         self.style, self.title, self.text, self.rows, self.points, self.label = style, title, "", [], POINTS, str
         self.bind("<Configure>", lambda event: self.draw())
 
@@ -39,23 +39,28 @@ class Strip(tk.Canvas):
         self.delete("all")
         px, colours = self.style.px, self.style.colours
         width, left, floor, ceiling = self.winfo_width(), px(90), self.winfo_height() - px(24), px(34)
-        self.create_text(px(8), px(6), anchor="nw", text=f"{self.title}   {self.text}", font="TkDefaultFont", fill=colours["ink"], tags="figures")
+        self.create_text(px(8), px(6), anchor="nw", text=f"{self.title}   {self.text}", font="TkDefaultFont",
+                         fill=colours["ink"], tags="figures")
         if not self.rows:
             return
         top = round_above(max(*(row[2] for row in self.rows), 1e-3))
 
         def place(number, value):
-            return left + px(4) + number * (width - left - px(12)) / max(1, self.points - 1), floor - (floor - ceiling) * value / top
+            return (left + px(4) + number * (width - left - px(12)) / max(1, self.points - 1),
+                    floor - (floor - ceiling) * value / top)
         for part in range(5):
             y = floor - part * (floor - ceiling) / 4
             self.create_line(left, y, width, y, fill=colours["line"])
-            self.create_text(left - px(6), y, anchor="e", text=f"{part * top / 4:.6g} us", font="TkDefaultFont", fill=colours["faint"])
+            self.create_text(left - px(6), y, anchor="e", text=f"{part * top / 4:.6g} us", font="TkDefaultFont",
+                             fill=colours["faint"])
         for number in range(0, len(self.rows), max(1, self.points // TICKS)):
-            self.create_text(place(number, 0)[0], floor + px(4), anchor="nw" if number == 0 else "n", text=self.label(self.rows[number][0]),
-                             font="TkDefaultFont", fill=colours["faint"], tags="time")
+            self.create_text(place(number, 0)[0], floor + px(4), anchor="nw" if number == 0 else "n",
+                             text=self.label(self.rows[number][0]), font="TkDefaultFont",
+                             fill=colours["faint"], tags="time")
         if len(self.rows) > 1:
             for column, colour, tag in ((2, colours["bad"], "largest"), (1, colours["chart"], "line")):
-                self.create_line(*(c for number, row in enumerate(self.rows) for c in place(number, row[column])), fill=colour, width=px(2), tags=tag)
+                self.create_line(*(c for number, row in enumerate(self.rows) for c in place(number, row[column])),
+                                 fill=colour, width=px(2), tags=tag)
 
 
 class Plot:
@@ -72,7 +77,8 @@ class Plot:
         row.pack(side="bottom", fill="x")
 
         def button(name, text, action):
-            self.buttons[name] = ttk.Button(row, text=text, command=action, style="TButton" if name == "Reset" else "Small.TButton")
+            self.buttons[name] = ttk.Button(row, text=text, command=action,
+                                            style="TButton" if name == "Reset" else "Small.TButton")
             self.buttons[name].pack(side="left", padx=px(3))
         button("Reset", _("Reset"), self.reset)
         ttk.Label(row, text=_("Points:")).pack(side="left", padx=(px(8), 0))
@@ -84,7 +90,8 @@ class Plot:
         self.clock_box = ttk.Checkbutton(row, text=_("Time of day"), variable=self.clock, command=self.show)
         self.clock_box.pack(side="right", padx=px(6))
         ttk.Label(row, text=_("Latency (us) over time (s)"), style="Faint.TLabel").pack(side="left", expand=True)
-        self.strips = {name: Strip(root, style, _("%s thread (%d ns)") % (name, period)) for name, period in trace.threads}
+        self.strips = {name: Strip(root, style, _("%s thread (%d ns)") % (name, period))
+                       for name, period in trace.threads}
         for strip in self.strips.values():
             strip.pack(fill="both", expand=True, padx=px(4), pady=px(2))
         root.update_idletasks()
@@ -102,7 +109,8 @@ class Plot:
         self.show()
 
     def label(self, moment):
-        return time.strftime("%H:%M:%S", time.localtime(moment)) if self.clock.get() else f"{moment - self.trace.start:.0f}"
+        return (time.strftime("%H:%M:%S", time.localtime(moment)) if self.clock.get()
+                else f"{moment - self.trace.start:.0f}")
 
     def show(self):
         for name, strip in self.strips.items():

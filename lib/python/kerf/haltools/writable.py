@@ -24,7 +24,8 @@ class Item:
         try:
             self.kind = KINDS[found["type"]]
         except KeyError:
-            raise NotWritable(_("%s: a %s of type %s cannot be set here: bit, s32, u32 and float can") % (name, _(self.what), found["type"].name)) from None
+            raise NotWritable(_("%s: a %s of type %s cannot be set here: bit, s32, u32 and float can")
+                              % (name, _(self.what), found["type"].name)) from None
         self.start = self.get()
 
     def _find(self):
@@ -48,9 +49,11 @@ class Item:
         if found["writers"]:
             driver = found["driver"] or "PIN"
             if connected:
-                raise NotWritable(_("%s: %s is connected to the signal %s, which is written by %s: disconnect that first (halcmd unlinkp %s)")
+                raise NotWritable(_("%s: %s is connected to the signal %s, which is written by %s: disconnect that "
+                                    "first (halcmd unlinkp %s)")
                                   % (self.name, self.name, signal, driver, driver))
-            raise NotWritable(_("%s: the signal is written by %s: disconnect that first (halcmd unlinkp %s)") % (self.name, driver, driver))
+            raise NotWritable(_("%s: the signal is written by %s: disconnect that first (halcmd unlinkp %s)")
+                              % (self.name, driver, driver))
         return signal
 
     def get(self):

@@ -28,7 +28,8 @@ class NotPossible(Exception):
 
 def lines_of(path):
     """Physical lines with their ends; bytes as characters, so that they can be written back unchanged."""
-    return re.findall(r"[^\n]*\n|[^\n]+", Path(path).read_bytes().decode("latin-1"))     # Python ends lines in many letters
+    # Python ends lines in many letters
+    return re.findall(r"[^\n]*\n|[^\n]+", Path(path).read_bytes().decode("latin-1"))
 
 
 def walk(path, section="", depth=0):
@@ -164,7 +165,8 @@ class Calibration:
                     item.set(new)
         except (RuntimeError, ValueError) as error:
             self._restore(before)
-            raise NotPossible(_("[%s]%s: %s: %s; nothing is changed") % (value.section, value.name, item.name, error)) from None
+            raise NotPossible(_("[%s]%s: %s: %s; nothing is changed")
+                              % (value.section, value.name, item.name, error)) from None
         for value, old in before:
             value.test = old
 
@@ -207,14 +209,17 @@ class Calibration:
     def save(self):
         """The values in HAL go into the file; what was changed, one text each. Raises NotPossible."""
         if self.ini.name.endswith(".ini.expanded"):
-            raise NotPossible(_("%s is made from another INI file each time the machine starts: values are to be changed in that one (%s)") % (self.ini, self.ini.name[:-len('.expanded')]))
+            raise NotPossible(_("%s is made from another INI file each time the machine starts: values are to be "
+                                "changed in that one (%s)") % (self.ini, self.ini.name[:-len('.expanded')]))
         for value in (v for values in self.sections.values() for v in values):
             if isinstance(now := value.read(), float) and not math.isfinite(now):
-                raise NotPossible(_("[%s]%s: the value in HAL is %s: an INI file holds numbers only; nothing is saved") % (value.section, value.name, now))
+                raise NotPossible(_("[%s]%s: the value in HAL is %s: an INI file holds numbers only; nothing is saved")
+                                  % (value.section, value.name, now))
         changes = self.changes()
         for path in {c[0] for c in changes}:
             if not os.access(path, os.W_OK):
-                raise NotPossible(_("%s is not writable: chmod u+w, or copy the configuration to your own folder") % path)
+                raise NotPossible(_("%s is not writable: chmod u+w, or copy the configuration to your own folder")
+                                  % path)
         for path in {c[0] for c in changes}:
             lines = lines_of(path)
             for change in changes:

@@ -11,7 +11,8 @@ from ..language import _, N_
 from . import controller
 
 POLL_MS = 1000
-FLAGS = ((N_("Configuration *"), 0x2), (N_("Version Numbers *"), 0x8), ("NML *", 0x40), ("RCS *", 0x200), (N_("Task Issue"), 0x10), (N_("Motion Time"), 0x80),
+FLAGS = ((N_("Configuration *"), 0x2), (N_("Version Numbers *"), 0x8), ("NML *", 0x40), ("RCS *", 0x200),
+         (N_("Task Issue"), 0x10), (N_("Motion Time"), 0x80),
          (N_("Interpreter"), 0x100), (N_("Interpreter List"), 0x800), (N_("State Tags"), 0x80000))
 KNOWN = sum(flag[1] for flag in FLAGS)
 

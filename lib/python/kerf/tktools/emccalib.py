@@ -26,7 +26,8 @@ class Tab:
         buttons = ttk.Frame(page)
         buttons.pack(side="bottom", pady=(px(8), 0))
         self.buttons = {}
-        for name, action in (("OK", self.ok), (N_("Test"), self.test), (N_("Cancel"), self.cancel), (N_("Refresh"), self.refresh)):
+        for name, action in (("OK", self.ok), (N_("Test"), self.test), (N_("Cancel"), self.cancel),
+                             (N_("Refresh"), self.refresh)):
             self.buttons[name] = ttk.Button(buttons, text=_(name), command=action)
             self.buttons[name].pack(side="left", padx=px(4))
         table = self.table = Scrolled(page, window.style)
@@ -91,7 +92,8 @@ class Tab:
             self.labels[row].configure(text=value.text())
             self.next(row, value.text())
         self.arrange(EDIT)
-        self.window.say(_("[%s]: kept until the machine ends; Save To File writes them into the INI file") % self.section)
+        self.window.say(_("[%s]: kept until the machine ends; Save To File writes them into the INI file")
+                        % self.section)
 
     def cancel(self):
         try:
@@ -122,7 +124,8 @@ class Window:
         for tab in self.tabs:
             tab.table.fit_width(style.px(320))
         root.update_idletasks()
-        tkstyle.centre(root, max(style.px(480), root.winfo_reqwidth()), root.winfo_reqheight(), (style.px(320), style.px(240)))
+        tkstyle.centre(root, max(style.px(480), root.winfo_reqwidth()), root.winfo_reqheight(),
+                       (style.px(320), style.px(240)))
         root.protocol("WM_DELETE_WINDOW", self.quit)
 
     def say(self, text, bad=False):
@@ -135,7 +138,8 @@ class Window:
         except (NotPossible, OSError) as error:
             messagebox.showerror(TITLE, str(error), parent=self.root)
             return False
-        self.say(_("Saved %s: %s") % (self.model.ini.name, '; '.join(changed)) if changed else _("The INI file has these values already"))
+        self.say(_("Saved %s: %s") % (self.model.ini.name, '; '.join(changed)) if changed
+                 else _("The INI file has these values already"))
         return True
 
     def quit(self):
@@ -145,7 +149,9 @@ class Window:
         except OSError:
             changes = []
         if changes:
-            answer = messagebox.askyesnocancel(TITLE, _("Values in use differ from the INI file:\n%s\n\nSave them?") % "\n".join(changes), parent=self.root)
+            answer = messagebox.askyesnocancel(TITLE,
+                                               _("Values in use differ from the INI file:\n%s\n\nSave them?")
+                                               % "\n".join(changes), parent=self.root)
             if answer is None or (answer and not self.save()):
                 return
         self.root.destroy()
@@ -178,7 +184,8 @@ def main(arguments):
     if not model.sections:
         tkstyle.apply(root)
         root.withdraw()
-        text = (_("No HAL file of this machine sets a pin from a section for tuning:\n    setp PIN [SECTION]NAME\nSections: %s") % (', '.join(SUPPORTED),))
+        text = (_("No HAL file of this machine sets a pin from a section for tuning:\n    setp PIN "
+                  "[SECTION]NAME\nSections: %s") % (', '.join(SUPPORTED),))
         print(f"emccalib: {ini}: {text}", file=sys.stderr)
         messagebox.showinfo(TITLE, text)
         return 1

@@ -104,7 +104,8 @@ class Window:
         style = self.style = tkstyle.apply(root)
         root.title(_("AXIS Manual Toolchanger"))
         root.geometry("-60-60")
-        ttk.Label(root, text=_("This window watches for tool changes.\nIt hides by itself."), padding=style.px(20)).pack()
+        ttk.Label(root, text=_("This window watches for tool changes.\nIt hides by itself."),
+                  padding=style.px(20)).pack()
         root.protocol("WM_DELETE_WINDOW", root.withdraw)
 
     def tick(self):

@@ -25,7 +25,8 @@ class Window(halshow.Window):
         root.title(TITLE)
         self.book.tab(self.settings.scroll, state="hidden")
         page = self.modify = ttk.Frame(self.book, padding=self.style.px(12))
-        ttk.Label(page, text=_("Commands of halcmd go into the line below: setp, net, addf and others.\nWhat they print is on the page SHOW."),
+        ttk.Label(page, text=_("Commands of halcmd go into the line below: setp, net, addf and others.\n"
+                               "What they print is on the page SHOW."),
                   justify="left", wraplength=self.style.px(420)).pack(anchor="w")
         self.book.add(page, text=_(" MODIFY "))
 
@@ -33,16 +34,21 @@ class Window(halshow.Window):
         bar = tk.Menu(self.root)
         self.root.configure(menu=bar)
         self.menus = {}
-        expand = ((N_("Expand All"), self.expand), (N_("Collapse All"), self.collapse), (N_("Expand Pins"), lambda: self.expand("pin")),
-                  (N_("Expand Parameters"), lambda: self.expand("param")), (N_("Expand Signals"), lambda: self.expand("sig")))
+        expand = ((N_("Expand All"), self.expand), (N_("Collapse All"), self.collapse),
+                  (N_("Expand Pins"), lambda: self.expand("pin")),
+                  (N_("Expand Parameters"), lambda: self.expand("param")),
+                  (N_("Expand Signals"), lambda: self.expand("sig")))
         for title, entries in (
-                (N_("File"), ((N_("Refresh"), self.reload_tree), (N_("Save"), lambda: self.save_hal("all")), (N_("Save INI Tuning"), None), (N_("Save HAL Ini"), None),
-                          (N_("Save HAL Net"), lambda: self.save_hal("net")), (N_("Save and Exit"), self.save_and_exit), (N_("Exit"), self.exit))),
+                (N_("File"), ((N_("Refresh"), self.reload_tree), (N_("Save"), lambda: self.save_hal("all")),
+                              (N_("Save INI Tuning"), None), (N_("Save HAL Ini"), None),
+                          (N_("Save HAL Net"), lambda: self.save_hal("net")), (N_("Save and Exit"), self.save_and_exit),
+                          (N_("Exit"), self.exit))),
                 (N_("View"), expand), (N_("Help"), ((N_("About..."), self.about),))):
             menu = self.menus[title] = tk.Menu(bar, tearoff=False)
             bar.add_cascade(label=_(title), menu=menu, underline=0)
             for label, action in entries:
-                menu.add_command(label=_(label), command=action or (lambda: None), state="normal" if action else "disabled")
+                menu.add_command(label=_(label), command=action or (lambda: None),
+                                 state="normal" if action else "disabled")
 
     @property
     def mode(self):
@@ -54,7 +60,8 @@ class Window(halshow.Window):
 
     def save_hal(self, kind):
         """True when a file has been written."""
-        path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save"), filetypes=FILE_TYPES, defaultextension=".hal")
+        path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save"), filetypes=FILE_TYPES,
+                                               defaultextension=".hal")
         if not path or self.hal("save", KINDS[kind], f"{path}.new") is None:
             return False
         try:
@@ -92,8 +99,10 @@ class Window(halshow.Window):
             if kind == "leave" or (kind != "stay" and self.save_hal(kind)):
                 self.leave()
         self.answer_buttons = {}
-        for text, kind in ((N_("Save All"), "all"), (N_("Save Tune"), ""), (N_("Save as Netlist"), "net"), (N_("Don't Save"), "leave"), (N_("Cancel"), "stay")):
-            button = self.answer_buttons[text] = ttk.Button(row, text=_(text), command=lambda k=kind: answer(k), state="normal" if kind else "disabled")
+        for text, kind in ((N_("Save All"), "all"), (N_("Save Tune"), ""), (N_("Save as Netlist"), "net"),
+                           (N_("Don't Save"), "leave"), (N_("Cancel"), "stay")):
+            button = self.answer_buttons[text] = ttk.Button(row, text=_(text), command=lambda k=kind: answer(k),
+                                                            state="normal" if kind else "disabled")
             button.pack(side="left", padx=px(3))
         top.bind("<Escape>", lambda event: top.destroy())
 

@@ -89,7 +89,8 @@ class Window:
             buttons.pack(side="bottom", fill="x")
             self.buttons = {}
             for text, action in ((N_("Select"), self.select), (N_("Exit"), self.exit)):
-                self.buttons[text] = ttk.Button(buttons, text=_(text), command=action, padding=(px(4), style.roomy(1, 9)))
+                self.buttons[text] = ttk.Button(buttons, text=_(text), command=action,
+                                                padding=(px(4), style.roomy(1, 9)))
                 self.buttons[text].pack(side="left", expand=True, fill="x")
             self.label.pack(side="bottom", fill="x")
             self.value.pack(fill="both", expand=True)
@@ -125,7 +126,8 @@ class Window:
         """The window grows with what it shows, and stays as wide."""
         there = self.item and self.item.refresh()           # it may go and come back with another type
         self.value.configure(text=text_of(self.item.type, self.item.value()) if there else NOTHING)
-        needed = max(self.value.winfo_reqwidth(), self.label.winfo_reqwidth() if not self.small else 0) + self.style.px(8)
+        needed = max(self.value.winfo_reqwidth(),
+                     self.label.winfo_reqwidth() if not self.small else 0) + self.style.px(8)
         if 1 < self.root.winfo_width() < needed <= self.root.winfo_screenwidth():
             self.root.geometry(f"{needed}x{self.root.winfo_height()}")
 
@@ -167,7 +169,8 @@ class Chooser:
         self.lists = {}
         for kind, title in (("pin", N_("Pins")), ("sig", N_("Signals")), ("param", N_("Parameters"))):
             page = ttk.Frame(self.book)
-            box = self.lists[kind] = tk.Listbox(page, exportselection=False, activestyle="none", relief="flat", font="TkDefaultFont")
+            box = self.lists[kind] = tk.Listbox(page, exportselection=False, activestyle="none", relief="flat",
+                                                font="TkDefaultFont")
             bar = ttk.Scrollbar(page, command=box.yview)
             box.configure(yscrollcommand=bar.set)
             bar.pack(side="right", fill="y")

@@ -21,11 +21,13 @@ from .widgets import Scrolled
 SIZE, MINIMUM = (700, 475), (230, 240)
 LEFT_SHARE = 0.3
 STRIP, WRAP_PX = 26, 380
-DEFAULTS = {"watchInterval": 100, "col1_width": 100, "ffmts": "", "ifmts": "", "alwaysOnTop": 0, "autoSaveWatchlist": 1, "separateParams": 0}
+DEFAULTS = {"watchInterval": 100, "col1_width": 100, "ffmts": "", "ifmts": "", "alwaysOnTop": 0, "autoSaveWatchlist": 1,
+            "separateParams": 0}
 START_TEXT = _("Commands may be tested here but they will NOT be saved")
 ADDING = {"pin": N_("Add pin"), "sig": N_("Add signal"), "param": N_("Add parameter")}
 # Commands that the HAL library may refuse; they start no programs.
-REFUSABLE = {"addf", "alias", "delf", "delsig", "linkps", "linksp", "net", "newsig", "setp", "sets", "unalias", "unlinkp"}
+REFUSABLE = {"addf", "alias", "delf", "delsig", "linkps", "linksp", "net", "newsig", "setp", "sets",
+             "unalias", "unlinkp"}
 MODES = ("showhal", "watchhal", "settings")
 FILE_TYPES = ((_("Watch lists"), "*.halshow"), (_("All files"), "*"))
 USAGE = """Usage: halshow [--help] [--fformat FORMAT] [--iformat FORMAT] [--noprefs] [WATCHFILE]
@@ -83,8 +85,9 @@ class Preferences:
     def save(self, geometry, ratio, width, words, workmode, settings):
         if not self.path:
             return
-        lines = ["# Halshow settings", "# This file is written when halshow ends.", f"wm geometry . {geometry}", f"placeFrames {ratio:.4f}",
-                 f"set ::ratio {ratio:.4f}", f"set ::old_w_leftf {width}", f"set ::watchlist {tclprefs.quoted(words)}", f"set ::workmode {workmode}"]
+        lines = ["# Halshow settings", "# This file is written when halshow ends.", f"wm geometry . {geometry}",
+                 f"placeFrames {ratio:.4f}", f"set ::ratio {ratio:.4f}", f"set ::old_w_leftf {width}",
+                 f"set ::watchlist {tclprefs.quoted(words)}", f"set ::workmode {workmode}"]
         lines += [f"set ::{name} {tclprefs.quoted(value)}" for name, value in settings.items()]
         tclprefs.write(self.path, "\n".join(lines) + "\n")
 
@@ -170,13 +173,19 @@ class Window:
         self.root.configure(menu=bar)
         self.menus = {}
         for title, tearoff, entries in (
-                (N_("File"), True, ((N_("Load Watch List"), self.load_dialog), (N_("Save Watch List"), lambda: self.save_dialog(False)),
-                                (N_("Save Watch List (multiline)"), lambda: self.save_dialog(True)), None, (N_("Exit"), self.exit))),
-                (N_("Tree View"), False, ((N_("Expand All"), self.expand), (N_("Collapse All"), self.collapse), (N_("Expand Pins"), lambda: self.expand("pin")),
-                                      (N_("Expand Parameters"), lambda: self.expand("param")), (N_("Expand Signals"), lambda: self.expand("sig")), None,
+                (N_("File"), True, ((N_("Load Watch List"), self.load_dialog),
+                                    (N_("Save Watch List"), lambda: self.save_dialog(False)),
+                                (N_("Save Watch List (multiline)"), lambda: self.save_dialog(True)), None,
+                                (N_("Exit"), self.exit))),
+                (N_("Tree View"), False, ((N_("Expand All"), self.expand), (N_("Collapse All"), self.collapse),
+                                          (N_("Expand Pins"), lambda: self.expand("pin")),
+                                      (N_("Expand Parameters"), lambda: self.expand("param")),
+                                      (N_("Expand Signals"), lambda: self.expand("sig")), None,
                                       (N_("Reload tree view"), self.reload_tree))),
-                (N_("Watch"), False, ((ADDING["pin"], lambda: self.add_dialog("pin")), (ADDING["sig"], lambda: self.add_dialog("sig")),
-                                  (ADDING["param"], lambda: self.add_dialog("param")), (N_("Add from HAL text"), self.text_dialog), None,
+                (N_("Watch"), False, ((ADDING["pin"], lambda: self.add_dialog("pin")),
+                                      (ADDING["sig"], lambda: self.add_dialog("sig")),
+                                  (ADDING["param"], lambda: self.add_dialog("param")),
+                                  (N_("Add from HAL text"), self.text_dialog), None,
                                   (N_("Reload Watch"), lambda: self.view.layout()), (N_("Erase Watch"), self.erase)))):
             menu = self.menus[title] = tk.Menu(bar, tearoff=tearoff)
             bar.add_cascade(label=_(title), menu=menu, underline=0)
@@ -200,7 +209,8 @@ class Window:
         top.pack(fill="x")
         self.whole = tk.BooleanVar(self.root, False)
         self.tree_box = ttk.Frame(self.left)
-        self.whole_box = ttk.Checkbutton(self.left, text=_("Full path (regex)"), variable=self.whole, command=self.apply_filter)
+        self.whole_box = ttk.Checkbutton(self.left, text=_("Full path (regex)"), variable=self.whole,
+                                         command=self.apply_filter)
         self.whole_box.pack(anchor="w", padx=px(2))
         self.tree_box.pack(fill="both", expand=True)
         self.tree = ttk.Treeview(self.tree_box, show="tree", selectmode="extended")
@@ -226,13 +236,16 @@ class Window:
         self.execute_button.pack(side="right")
         self.command = ttk.Entry(command, font="TkFixedFont")
         self.command.pack(side="left", fill="x", expand=True, padx=px(4))
-        for key, action in (("Return", self.execute), ("KP_Enter", self.execute), ("Up", lambda: self.recall(-1)), ("Down", lambda: self.recall(1))):
+        for key, action in (("Return", self.execute), ("KP_Enter", self.execute), ("Up", lambda: self.recall(-1)),
+                            ("Down", lambda: self.recall(1))):
             self.command.bind(f"<{key}>", lambda event, a=action: a())
         self.book = ttk.Notebook(right)
         self.book.pack(fill="both", expand=True)
         box = ttk.Frame(self.book)
-        self.text = tk.Text(box, wrap="none", state="disabled", relief="flat", width=10, height=4, padx=px(4), pady=px(4))
-        bars = ttk.Scrollbar(box, command=self.text.yview), ttk.Scrollbar(box, orient="horizontal", command=self.text.xview)
+        self.text = tk.Text(box, wrap="none", state="disabled", relief="flat", width=10, height=4,
+                            padx=px(4), pady=px(4))
+        bars = (ttk.Scrollbar(box, command=self.text.yview),
+                ttk.Scrollbar(box, orient="horizontal", command=self.text.xview))
         self.text.configure(yscrollcommand=bars[0].set, xscrollcommand=bars[1].set)
         bars[0].pack(side="right", fill="y")
         bars[1].pack(side="bottom", fill="x")
@@ -241,7 +254,8 @@ class Window:
         self.text.bind("<Button-1>", lambda event: self.text.focus_set())
         self.text.bind("<Button-3>", self.text_popup)
         self.text_menu = tk.Menu(self.root, tearoff=False)
-        self.view = WatchView(self.book, self.style, self.formats, self.say, self.show_in_tree, self, px(self.prefs.integer("col1_width", 20)) / self.style.scale)
+        self.view = WatchView(self.book, self.style, self.formats, self.say, self.show_in_tree, self,
+                              px(self.prefs.integer("col1_width", 20)) / self.style.scale)
         self.settings = Settings(self.book, self)
         for page, title in ((box, _(" SHOW ")), (self.view, _(" WATCH ")), (self.settings.scroll, _(" SETTINGS "))):
             self.book.add(page, text=title)
@@ -296,7 +310,8 @@ class Window:
         self.tree_nodes = haltree.nodes(self.found, self.separate)
         tree.delete(*tree.get_children())
         for node in self.tree_nodes:
-            tree.insert(node.parent, "end", iid=node.id, text=node.text, open=node.id in opened, tags=("param",) if node.kind == "param" else ())
+            tree.insert(node.parent, "end", iid=node.id, text=node.text, open=node.id in opened,
+                        tags=("param",) if node.kind == "param" else ())
 
     def all_ids(self):
         return [node.id for node in self.tree_nodes if self.tree.exists(node.id)]
@@ -338,7 +353,8 @@ class Window:
         self.say(_("%d found") % len(found))
 
     def tree_click(self, event):
-        if self.tree.identify_region(event.x, event.y) == "tree" and "indicator" not in self.tree.identify_element(event.x, event.y):
+        if (self.tree.identify_region(event.x, event.y) == "tree"
+                and "indicator" not in self.tree.identify_element(event.x, event.y)):
             self.use_node(self.tree.identify_row(event.y))
 
     def use_node(self, id_):
@@ -354,7 +370,9 @@ class Window:
         kinds = [node.kind or id_.split("+")[0]]
         if not node.kind and not self.separate and kinds == ["pin"]:
             kinds.append("param")
-        self.show_text("\n\n".join(t for t in (self.hal("show", k, *([node.name] if node.name else [])) or "" for k in kinds) if t))
+        self.show_text("\n\n".join(t
+                                   for t in (self.hal("show", k, *([node.name] if node.name else [])) or ""
+                                             for k in kinds) if t))
 
     def tree_popup(self, event):
         id_ = self.tree.identify_row(event.y)
@@ -402,7 +420,8 @@ class Window:
         if words[0] == "halcmd":
             words.pop(0)
         if words[:1] == ["help"]:           # halcmd itself would write it on the terminal
-            text = subprocess.run(["halcmd", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False).stdout
+            text = subprocess.run(["halcmd", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  check=False).stdout
         elif words[:1] == ["save"] and len(words) < 3:
             text = self.saved(words)
         else:
@@ -450,8 +469,10 @@ class Window:
         state = "normal" if text.strip() else "disabled"
         menu.delete(0, "end")
         menu.add_command(label=_("Copy"), state=state, command=self.copy_selection)
-        for label, kind in ((N_("Add as Pin(s)"), "pin"), (N_("Add as Signal(s)"), "sig"), (N_("Add as Param(s)"), "param")):
-            menu.add_command(label=_(label), state=state, command=lambda k=kind: self.add_words(f"{k}+{name}" for name in text.split()))
+        for label, kind in ((N_("Add as Pin(s)"), "pin"), (N_("Add as Signal(s)"), "sig"),
+                            (N_("Add as Param(s)"), "param")):
+            menu.add_command(label=_(label), state=state,
+                             command=lambda k=kind: self.add_words(f"{k}+{name}" for name in text.split()))
         menu.tk_popup(event.x_root, event.y_root)
 
     # -- WATCH --------------------------------------------------------------------------
@@ -491,7 +512,8 @@ class Window:
         window = tk.Toplevel(self.root)
         window.title(_("Add from HAL text"))
         window.transient(self.root)
-        ttk.Label(window, text=_("Lines: net SIGNAL PIN..., setp NAME VALUE, or names of pins"), padding=self.style.px(6)).pack(fill="x")
+        ttk.Label(window, text=_("Lines: net SIGNAL PIN..., setp NAME VALUE, or names of pins"),
+                  padding=self.style.px(6)).pack(fill="x")
         text = self.dialog_text = tk.Text(window, width=60, height=12)
         bar = ttk.Frame(window, padding=self.style.px(6))
 
@@ -521,7 +543,8 @@ class Window:
             self.say(_("The clipboard is empty"), True)
             return
         words = text.split()
-        self.add_words(words if all(w.split("+")[0] in watch.KINDS and "+" in w for w in words) else watch.from_hal_text(text))
+        self.add_words(words if all(w.split("+")[0] in watch.KINDS and "+" in w for w in words)
+                       else watch.from_hal_text(text))
 
     def erase(self):
         self.view.show([])
@@ -566,7 +589,8 @@ class Window:
             self.load(path)
 
     def save_dialog(self, multiline):
-        path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save Watch List"), filetypes=FILE_TYPES, defaultextension=".halshow",
+        path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save Watch List"), filetypes=FILE_TYPES,
+                                               defaultextension=".halshow",
                                                initialfile=self.file.name if self.file else "my.halshow")
         if path:
             self.save(path, multiline)
@@ -587,8 +611,9 @@ class Window:
     def save_preferences(self):
         keep = self.settings.value("autoSaveWatchlist")
         try:
-            self.prefs.save(self.root.geometry(), self.ratio(), self.left.winfo_width(), self.view.words() if keep else [],
-                            "watchhal" if self.mode == "watchhal" else "showhal", self.settings.values())
+            self.prefs.save(self.root.geometry(), self.ratio(), self.left.winfo_width(),
+                            self.view.words() if keep else [], "watchhal" if self.mode == "watchhal" else "showhal",
+                            self.settings.values())
         except OSError as error:
             print(f"halshow: {self.prefs.path}: {error.strerror}", file=sys.stderr)
 
@@ -602,21 +627,27 @@ class Settings:
         self.scroll = Scrolled(parent, style)
         page = self.scroll.inner
         page.configure(padding=px(10))
-        self.vars = {"watchInterval": tk.StringVar(page, window.interval), "col1_width": tk.StringVar(page, prefs.integer("col1_width", 20)),
-                     "ffmts": tk.StringVar(page, window.formats.real), "ifmts": tk.StringVar(page, window.formats.integer),
+        self.vars = {"watchInterval": tk.StringVar(page, window.interval),
+                     "col1_width": tk.StringVar(page, prefs.integer("col1_width", 20)),
+                     "ffmts": tk.StringVar(page, window.formats.real),
+                     "ifmts": tk.StringVar(page, window.formats.integer),
                      "alwaysOnTop": tk.BooleanVar(page, prefs.integer("alwaysOnTop")),
                      "autoSaveWatchlist": tk.BooleanVar(page, prefs.integer("autoSaveWatchlist")),
                      "separateParams": tk.BooleanVar(page, window.separate)}
         self.entries = {}
-        for row, (name, label) in enumerate((("watchInterval", _("Update interval (ms)")), ("col1_width", _("Column width")), ("ffmts", _("Float")), ("ifmts", _("Integer")))):
+        for row, (name, label) in enumerate((("watchInterval", _("Update interval (ms)")),
+                                             ("col1_width", _("Column width")), ("ffmts", _("Float")),
+                                             ("ifmts", _("Integer")))):
             if name == "ffmts":
-                ttk.Label(page, text=_("Format overrides (printf style, for example %.3f and %08X):"), wraplength=px(WRAP_PX)).grid(row=2, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
+                ttk.Label(page, text=_("Format overrides (printf style, for example %.3f and %08X):"),
+                          wraplength=px(WRAP_PX)).grid(row=2, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
             ttk.Label(page, text=label).grid(row=row + (row > 1), column=0, sticky="w", pady=px(2))
             self.entries[name] = ttk.Entry(page, textvariable=self.vars[name], width=12)
             self.entries[name].grid(row=row + (row > 1), column=1, sticky="w", pady=px(2))
             self.entries[name].bind("<Return>", lambda event: self.apply())
         self.boxes = {}
-        for row, (name, label) in enumerate((("alwaysOnTop", _("Always on top")), ("autoSaveWatchlist", _("Remember watchlist")),
+        for row, (name, label) in enumerate((("alwaysOnTop", _("Always on top")),
+                                             ("autoSaveWatchlist", _("Remember watchlist")),
                                              ("separateParams", _("Separate parameters from pins in tree"))), 5):
             self.boxes[name] = ttk.Checkbutton(page, text=label, variable=self.vars[name])
             self.boxes[name].grid(row=row, column=0, columnspan=2, sticky="w", pady=(px(8) if row == 5 else 0, 0))
@@ -631,7 +662,8 @@ class Settings:
 
     def values(self):
         w = self.window
-        return {"watchInterval": w.interval, "col1_width": round(w.view.column), "ffmts": w.formats.real, "ifmts": w.formats.integer,
+        return {"watchInterval": w.interval, "col1_width": round(w.view.column), "ffmts": w.formats.real,
+                "ifmts": w.formats.integer,
                 **{name: int(self.value(name)) for name in ("alwaysOnTop", "autoSaveWatchlist", "separateParams")}}
 
     def apply(self):

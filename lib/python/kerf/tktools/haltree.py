@@ -8,7 +8,8 @@ from hal import query
 
 from ..language import _, N_
 
-ROOTS = {"comp": N_("Components"), "pin": N_("Pins"), "param": N_("Parameters"), "sig": N_("Signals"), "funct": N_("Functions"), "thread": N_("Threads")}
+ROOTS = {"comp": N_("Components"), "pin": N_("Pins"), "param": N_("Parameters"), "sig": N_("Signals"),
+         "funct": N_("Functions"), "thread": N_("Threads")}
 MERGED = N_("Pins & Parameters")
 GROUPED = ("pin", "param", "sig")
 
@@ -25,8 +26,8 @@ class Node:
 
 def names():
     """Sorted names by kind."""
-    return {"comp": sorted(query.comps()), "pin": sorted(query.pins()), "param": sorted(query.params()), "sig": sorted(query.signals()),
-            "funct": sorted(query.functs()), "thread": list(query.threads())}
+    return {"comp": sorted(query.comps()), "pin": sorted(query.pins()), "param": sorted(query.params()),
+            "sig": sorted(query.signals()), "funct": sorted(query.functs()), "thread": list(query.threads())}
 
 
 def nodes(found, separate):

@@ -23,10 +23,14 @@ from ..language import _
 PROGRAM = "image-to-gcode"
 REMEMBERED = Path("~/.image2gcoderc")
 LABELS = {
-    "units": _("Units"), "invert": _("Invert image"), "normalize": _("Normalize image"), "expand": _("Extend image border"), "tolerance": _("Tolerance"), "pixel_size": _("Pixel size"),
-    "feed_rate": _("Feed rate"), "plunge_feed_rate": _("Plunge feed rate"), "spindle_speed": _("Spindle speed"), "pattern": _("Scan pattern"), "converter": _("Scan direction"),
-    "depth": _("Depth"), "pixelstep": _("Step over (pixels)"), "tool_diameter": _("Tool diameter"), "safety_height": _("Safety height"), "tool_type": _("Tool type"),
-    "bounded": _("Lace bounding"), "contact_angle": _("Contact angle"), "roughing_offset": _("Roughing offset"), "roughing_depth": _("Roughing depth a pass")}
+    "units": _("Units"), "invert": _("Invert image"), "normalize": _("Normalize image"),
+    "expand": _("Extend image border"), "tolerance": _("Tolerance"), "pixel_size": _("Pixel size"),
+    "feed_rate": _("Feed rate"), "plunge_feed_rate": _("Plunge feed rate"), "spindle_speed": _("Spindle speed"),
+    "pattern": _("Scan pattern"), "converter": _("Scan direction"),
+    "depth": _("Depth"), "pixelstep": _("Step over (pixels)"), "tool_diameter": _("Tool diameter"),
+    "safety_height": _("Safety height"), "tool_type": _("Tool type"),
+    "bounded": _("Lace bounding"), "contact_angle": _("Contact angle"), "roughing_offset": _("Roughing offset"),
+    "roughing_depth": _("Roughing depth a pass")}
 LARGEST = 220  # px of the picture in the window
 
 
@@ -45,8 +49,8 @@ def remembered():
             values = _Plain(f).load()
     except FileNotFoundError:
         return settings
-    except (OSError, pickle.UnpicklingError, EOFError, ValueError, AttributeError, IndexError, KeyError, ImportError, TypeError, OverflowError,
-            MemoryError) as error:
+    except (OSError, pickle.UnpicklingError, EOFError, ValueError, AttributeError, IndexError, KeyError, ImportError,
+            TypeError, OverflowError, MemoryError) as error:
         print(f"{PROGRAM}: {REMEMBERED.expanduser()} is not used: {error}", file=sys.stderr)
         return settings
     if isinstance(values, dict):
@@ -109,7 +113,8 @@ class Window:
         per_column = (len(names) + columns - 1) // columns
         for n, field in enumerate(names):
             row, column = n % per_column, n // per_column * 2
-            ttk.Label(form, text=LABELS[field]).grid(row=row, column=column, sticky="w", padx=(style.px(8) if column else 0, style.px(6)), pady=style.px(1))
+            ttk.Label(form, text=LABELS[field]).grid(row=row, column=column, sticky="w",
+                                                     padx=(style.px(8) if column else 0, style.px(6)), pady=style.px(1))
             self.field(form, field).grid(row=row, column=column + 1, sticky="ew", pady=style.px(1))
         self.told = ttk.Label(box, style="Bad.TLabel")
         self.told.grid(row=1, column=0, columnspan=2, sticky="w", pady=(style.px(6), 0))
@@ -128,7 +133,8 @@ class Window:
         if name in relief.CHOICES:
             variable = tk.StringVar(self.root, _(relief.CHOICES[name][value]))
             choices = [_(choice) for choice in relief.CHOICES[name]]
-            widget = ttk.Combobox(parent, textvariable=variable, values=choices, state="readonly", width=max(18, *map(len, choices)))
+            widget = ttk.Combobox(parent, textvariable=variable, values=choices, state="readonly",
+                                  width=max(18, *map(len, choices)))
         elif isinstance(value, bool):
             variable = tk.BooleanVar(self.root, value)
             widget = ttk.Checkbutton(parent, variable=variable)
@@ -152,7 +158,8 @@ class Window:
                 try:
                     value = type(getattr(settings, name))(text)
                 except ValueError:
-                    raise relief.Mistake((_("%s: %r is no whole number") if name == "pixelstep" else _("%s: %r is no number")) % (LABELS[name], text)) from None
+                    raise relief.Mistake((_("%s: %r is no whole number") if name == "pixelstep"
+                                          else _("%s: %r is no number")) % (LABELS[name], text)) from None
             setattr(settings, name, value)
         settings.check()
         return settings
@@ -202,7 +209,9 @@ def main(arguments):
     else:
         root = tkstyle.open_display(PROGRAM, "ImageToGcode")
         root.withdraw()
-        name = filedialog.askopenfilename(parent=root, title=_("Open image"), filetypes=[(_("Images"), "*.png *.gif *.jpg *.jpeg *.tif *.tiff *.bmp"), (_("All files"), "*")])
+        name = filedialog.askopenfilename(parent=root, title=_("Open image"),
+                                          filetypes=[(_("Images"), "*.png *.gif *.jpg *.jpeg *.tif *.tiff *.bmp"),
+                                                     (_("All files"), "*")])
         root.destroy()
         if not name:
             sys.exit(f"{PROGRAM}: User pressed cancel")

@@ -14,8 +14,8 @@ from . import controller
 PERIOD_MS = 100
 RED_TICKS = 20          # a changed value is red for 2 s
 WORDS = {
-    "exec_state": {1: "error", 2: "done", 3: "motion", 4: "motion queue", 5: "io", 7: "motion and io", 8: "delay", 9: "system command",
-                   10: "spindle orient"},
+    "exec_state": {1: "error", 2: "done", 3: "motion", 4: "motion queue", 5: "io", 7: "motion and io", 8: "delay",
+                   9: "system command", 10: "spindle orient"},
     "motion_mode": {1: "free", 2: "coord", 3: "teleop"},
     "interp_state": {1: "idle", 2: "reading", 3: "paused", 4: "waiting"},
     "task_state": {1: "estop", 2: "estop reset", 3: "off", 4: "on"},
@@ -81,7 +81,8 @@ class Window:
         root.title("LinuxCNC Status")
         self.button = ttk.Button(root, text=_("Copy All"), command=self.copy_all)
         self.button.pack(side="bottom", pady=px(6))
-        self.text = tk.Text(root, wrap="none", width=84, height=40, state="disabled", relief="flat", padx=px(6), pady=px(6))
+        self.text = tk.Text(root, wrap="none", width=84, height=40, state="disabled", relief="flat",
+                            padx=px(6), pady=px(6))
         down = ttk.Scrollbar(root, command=self.text.yview)
         across = ttk.Scrollbar(root, orient="horizontal", command=self.text.xview)
         self.text.configure(yscrollcommand=down.set, xscrollcommand=across.set)

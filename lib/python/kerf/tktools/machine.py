@@ -19,7 +19,8 @@ DEFAULT_RPM = 500.0
 
 
 def increment_mm(text):
-    """Length of a jog increment as written in an INI file (1mm, .01in, 1/8 in); (number, mm per unit or None). ValueError."""
+    """Length of a jog increment as written in an INI file (1mm, .01in, 1/8 in); (number, mm per unit or None).
+    ValueError."""
     match = re.fullmatch(r"\s*([\d.]+)(?:\s*/\s*([\d.]+))?\s*([a-z]*)\s*", text, re.I)
     if not match or (match[3] and match[3].lower() not in UNIT_WORDS):
         raise ValueError(f"'{text}' is no length")
@@ -133,7 +134,8 @@ class Machine:
 
     def spindle(self, direction):
         if direction:
-            self.command.spindle(linuxcnc.SPINDLE_FORWARD if direction > 0 else linuxcnc.SPINDLE_REVERSE, self.stat.settings[2] or DEFAULT_RPM)
+            self.command.spindle(linuxcnc.SPINDLE_FORWARD if direction > 0 else linuxcnc.SPINDLE_REVERSE,
+                                 self.stat.settings[2] or DEFAULT_RPM)
         else:
             self.command.spindle(linuxcnc.SPINDLE_OFF)
 
@@ -157,7 +159,8 @@ class Machine:
     def joints_of(self, row):
         """Joints behind a row: by [TRAJ]COORDINATES for identity kinematics, else the number itself."""
         coordinates = [c for c in (self.ini.find("TRAJ", "COORDINATES") or "").upper() if c in LETTERS]
-        if self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY and row < len(self.letters) and self.letters[row] in coordinates:
+        if (self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY and row < len(self.letters)
+                and self.letters[row] in coordinates):
             return [j for j, c in enumerate(coordinates) if c == self.letters[row] and j < self.stat.joints] or [row]
         return [row]
 
@@ -202,7 +205,8 @@ class Jog:
         velocity = direction * speed / 60
         if increment:
             length, mm = increment_mm(increment)
-            distance = length * (mm * m.stat.linear_units if mm and not (row < len(m.letters) and m.letters[row] in "ABC") else 1.0)
+            distance = length * (mm * m.stat.linear_units
+                                 if mm and not (row < len(m.letters) and m.letters[row] in "ABC") else 1.0)
             m.command.jog(linuxcnc.JOG_INCREMENT, not teleop, number, velocity, distance)
             return
         m.command.jog(linuxcnc.JOG_CONTINUOUS, not teleop, number, velocity)

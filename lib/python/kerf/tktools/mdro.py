@@ -88,17 +88,21 @@ class Window:
         self.values, self.entries, self.buttons = [], [], []
         for i, axis in enumerate(readout.axes):
             ttk.Label(box, text=axis, font=font).grid(row=i, column=0, padx=px(4))
-            value = ttk.Label(box, width=11, anchor="e", font=font, relief="sunken", background=style.colours["field"], padding=px(3))
+            value = ttk.Label(box, width=11, anchor="e", font=font, relief="sunken",
+                              background=style.colours["field"], padding=px(3))
             value.grid(row=i, column=1, sticky="ew", padx=px(4), pady=px(2))
             row = {}
-            for column, (text, action) in enumerate((("0", lambda i=i: self.enter(i, 0.0)), ("1/2", lambda i=i: self.enter(i, readout.value(i) / 2))), 2):
-                row[text] = ttk.Button(box, text=text, width=4, style="Readout.TButton", command=action, takefocus=False)
+            for column, (text, action) in enumerate((("0", lambda i=i: self.enter(i, 0.0)),
+                                                     ("1/2", lambda i=i: self.enter(i, readout.value(i) / 2))), 2):
+                row[text] = ttk.Button(box, text=text, width=4, style="Readout.TButton", command=action,
+                                       takefocus=False)
                 row[text].grid(row=i, column=column, padx=px(2))
             entry = ttk.Entry(box, width=9, font=font, justify="right")
             entry.grid(row=i, column=4, sticky="ew", padx=px(4))
             for key in ("<Return>", "<KP_Enter>"):
                 entry.bind(key, lambda event, i=i: self.typed(i))
-            row["I"] = ttk.Button(box, text="I", width=2, style="Readout.TButton", command=lambda i=i: self.index(i), takefocus=False)
+            row["I"] = ttk.Button(box, text="I", width=2, style="Readout.TButton", command=lambda i=i: self.index(i),
+                                  takefocus=False)
             row["I"].grid(row=i, column=5, padx=px(2))
             box.rowconfigure(i, weight=1)
             self.values.append(value)
@@ -119,7 +123,8 @@ class Window:
         self.keys = {}
         for n, key in enumerate(KEYS):
             wide = key == "Enter"
-            self.keys[key] = ttk.Button(pad, text=_(key), width=-5 if wide else 3, style="Readout.TButton", takefocus=False, command=lambda k=key: self.press(k))
+            self.keys[key] = ttk.Button(pad, text=_(key), width=-5 if wide else 3, style="Readout.TButton",
+                                        takefocus=False, command=lambda k=key: self.press(k))
             self.keys[key].grid(row=n // 3, column=n % 3, sticky="nsew", padx=1, pady=1)
             pad.rowconfigure(n // 3, weight=1)
 
@@ -130,10 +135,12 @@ class Window:
         self.system, self.unit = tk.IntVar(self.root, self.readout.system), tk.StringVar(self.root, self.readout.unit)
         self.radios = {}
         for k, name in enumerate(self.readout.names()):
-            self.radios[name] = ttk.Radiobutton(line, text=name, value=k, variable=self.system, command=self.choose, takefocus=False)
+            self.radios[name] = ttk.Radiobutton(line, text=name, value=k, variable=self.system, command=self.choose,
+                                                takefocus=False)
             self.radios[name].pack(side="left", padx=px(3))
         for unit in reversed((N_("inch"), "mm")):
-            self.radios[unit] = ttk.Radiobutton(line, text=_(unit), value=unit, variable=self.unit, command=self.choose, takefocus=False)
+            self.radios[unit] = ttk.Radiobutton(line, text=_(unit), value=unit, variable=self.unit, command=self.choose,
+                                                takefocus=False)
             self.radios[unit].pack(side="right", padx=px(3))
         self.choose()
 
@@ -198,12 +205,14 @@ class Window:
 
 
 def options(arguments):
-    p = argparse.ArgumentParser(prog="mdro", description="Read-out for a machine that is moved by hand.", allow_abbrev=False)
+    p = argparse.ArgumentParser(prog="mdro", description="Read-out for a machine that is moved by hand.",
+                                allow_abbrev=False)
     p.add_argument("-v", "--verbose", action="count", default=0)
     p.add_argument("-p", "--point_size", type=int, default=20, metavar="POINT", help="size of the letters (20)")
     p.add_argument("-m", "--mm", action="store_true", help="the pins are in mm (else inch)")
     p.add_argument("-l", "--load_cs", metavar="FILE.var", help="offsets of G54 to G57 from a file of parameters")
-    p.add_argument("-ini", "--ini", metavar="FILE", help="[DISPLAY]GEOMETRY, MDRO_VAR_FILE, POINT_SIZE, MM; [HAL]POSTGUI_HALFILE")
+    p.add_argument("-ini", "--ini", metavar="FILE",
+                   help="[DISPLAY]GEOMETRY, MDRO_VAR_FILE, POINT_SIZE, MM; [HAL]POSTGUI_HALFILE")
     p.add_argument("axes", nargs="?", default="XYZ", metavar="AXES", help="letters (XYZ)")
     return p.parse_args(arguments)
 
@@ -248,7 +257,8 @@ def main(arguments):
         component.newpin(f"index-enable.{i}", hal.HAL_BIT, hal.HAL_IO)
     component.ready()
     if o.verbose:
-        print(f"mdro: axes {''.join(axes)}, {'mm' if o.mm else 'inch'}, offsets from {o.load_cs or 'no file'}, HAL files {files}")
+        print(f"mdro: axes {''.join(axes)}, {'mm' if o.mm else 'inch'}, offsets from {o.load_cs or 'no file'}, "
+              f"HAL files {files}")
     if o.ini:
         run_postgui(os.path.abspath(o.ini), files)
     readout = Readout(axes, lambda i: component[f"axis.{i}"], "mm" if o.mm else "inch")

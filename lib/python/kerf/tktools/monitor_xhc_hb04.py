@@ -36,7 +36,8 @@ class Monitor:
             return _("Connected to pendant") + ("\n\n" + _("Unexpected") if required else "")
         if required:
             self.ended = True
-        return _("Lost connection to pendant") + ("\n\n" + _("Reconnect not supported for require_pendant==1") if required else "")
+        return _("Lost connection to pendant") + ("\n\n" + _("Reconnect not supported for require_pendant==1")
+                                                  if required else "")
 
 
 class Window:

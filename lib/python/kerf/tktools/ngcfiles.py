@@ -67,7 +67,8 @@ class Form:
         texts = []
         for parameter, value in zip(self.parameters, values):
             if not is_value(value):
-                raise ValueError(_("%s: %r is no number") % (parameter.name, value) if value.strip() else _("%s: a value is missing") % parameter.name)
+                raise ValueError(_("%s: %r is no number") % (parameter.name, value) if value.strip()
+                                 else _("%s: a value is missing") % parameter.name)
             texts.append(value.strip())
         return texts
 
@@ -125,9 +126,11 @@ class Subroutine(Form):
 
     def check_label(self, count, label, state):
         if label[1] != f"<{self.name.lower()}>":
-            self.fail(count, _("the subroutine is o%s: it must have the name of the file, o<%s>") % (label[1], self.name))
+            self.fail(count, _("the subroutine is o%s: it must have the name of the file, o<%s>")
+                      % (label[1], self.name))
         if state != ("before" if label[2] == "sub" else "inside"):
-            self.fail(count, _("only one subroutine may be in the file") if label[2] == "sub" else _("endsub without sub"))
+            self.fail(count, _("only one subroutine may be in the file") if label[2] == "sub"
+                      else _("endsub without sub"))
 
     def take(self, count, match, line, named):
         number = int(match[2])
@@ -180,7 +183,8 @@ class Gcmc(Form):
             elif entry := re.match(r"([A-Za-z_]\w*)\s*(?:=\s*([^,;]*))?(?:;[^,]*)?(?:,\s*(.*))?$", text):
                 if entry[1] not in seen and len(seen) < MOST:
                     seen.add(entry[1])
-                    self.parameters.append(Parameter(len(seen), entry[1], (entry[2] or "").strip(), (entry[3] or entry[1]).strip()))
+                    self.parameters.append(Parameter(len(seen), entry[1], (entry[2] or "").strip(),
+                                                     (entry[3] or entry[1]).strip()))
         self.find_picture()
 
     def call(self, values):
@@ -191,8 +195,10 @@ class Gcmc(Form):
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "out.ngc"
             words = [program, "--output", str(out)] + [f"--include={p}" for p in self.include] + self.options
-            words += [f"--define={p.name}={v}" for p, v in zip(self.parameters, self.checked(values))] + [str(self.path)]
-            done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            words += [f"--define={p.name}={v}"
+                      for p, v in zip(self.parameters, self.checked(values))] + [str(self.path)]
+            done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
             if done.returncode:
                 raise NotUsable(f"{self.path}: {done.stdout.strip()}")
             return [line for line in out.read_text().splitlines() if bare(line) not in WORDS_ENDING]
@@ -242,7 +248,8 @@ class Program:
         lines += frame_lines(self.preamble)
         count = len(self.features)
         for number, (name, notes, body) in enumerate(self.features):
-            lines += [note(f"ngcgui: FEATURE {number + 1} of {count}: {name}"), f"#<_feature:> = {number}", f"#<_remaining_features:> = {count - number - 1}"]
+            lines += [note(f"ngcgui: FEATURE {number + 1} of {count}: {name}"), f"#<_feature:> = {number}",
+                      f"#<_remaining_features:> = {count - number - 1}"]
             lines += notes + body if self.verbose else body
         lines += [note(f"ngcgui: postamble {self.postamble}")] if self.postamble and self.verbose else []
         lines += frame_lines(self.postamble)
@@ -285,6 +292,7 @@ def find_file(name, ini_find, base="."):
     [DISPLAY]PROGRAM_PREFIX, relative to base; the name itself where there is none."""
     if not name or name.startswith(":") or Path(name).exists():
         return name
-    paths = [ini_find("DISPLAY", "NGCGUI_SUBFILE_PATH"), ini_find("RS274NGC", "SUBROUTINE_PATH"), ini_find("DISPLAY", "PROGRAM_PREFIX"), "."]
+    paths = [ini_find("DISPLAY", "NGCGUI_SUBFILE_PATH"), ini_find("RS274NGC", "SUBROUTINE_PATH"),
+             ini_find("DISPLAY", "PROGRAM_PREFIX"), "."]
     places = (Path(base, folder, name) for path in paths for folder in folders_of(path))
     return next((str(place) for place in places if place.is_file()), name)

@@ -89,14 +89,18 @@ class Page:
         def button(text, action):
             self.buttons[text] = ttk.Button(box, text=_(text), command=action, takefocus=False)
             self.buttons[text].pack(fill="x", pady=px(1))
-        for text, action in ((N_("Preamble"), self.choose_preamble), (N_("Subfile"), self.choose_subfile), (N_("Postamble"), self.choose_postamble)):
+        for text, action in ((N_("Preamble"), self.choose_preamble), (N_("Subfile"), self.choose_subfile),
+                             (N_("Postamble"), self.choose_postamble)):
             button(text, action)
             self.names[text] = ttk.Label(box, style="Faint.TLabel", anchor="w")
             self.names[text].pack(fill="x")
-        for text, variable in ((N_("Retain values on Subfile read"), self.retain), (N_("Expand subroutine"), self.expand), (N_("Autosend"), self.autosend),
+        for text, variable in ((N_("Retain values on Subfile read"), self.retain),
+                               (N_("Expand subroutine"), self.expand), (N_("Autosend"), self.autosend),
                                (N_("Verbose ngcfile"), self.verbose)):
-            ttk.Checkbutton(box, text=_(text), variable=variable, takefocus=False, command=self.show_state).pack(fill="x")
-        for text, action in ((N_("Create Feature"), self.create), (N_("Reread"), self.reread), (N_("Restart"), self.restart), (N_("MakeFile"), self.finalize),
+            ttk.Checkbutton(box, text=_(text), variable=variable, takefocus=False,
+                            command=self.show_state).pack(fill="x")
+        for text, action in ((N_("Create Feature"), self.create), (N_("Reread"), self.reread),
+                             (N_("Restart"), self.restart), (N_("MakeFile"), self.finalize),
                              (N_("SendFileToAxis"), self.send), (N_("Exit"), self.exit)):
             button(text, action)
         self.picture = ttk.Label(box, anchor="center")
@@ -110,10 +114,13 @@ class Page:
         """Names and labels that follow what is chosen."""
         self.program.verbose = self.verbose.get()
         count = len(self.program.features)
-        self.buttons["Create Feature"].configure(text=_("Create Next") if count else _("Create Feature"), state="normal" if self.form else "disabled")
-        self.buttons["MakeFile"].configure(text=_("Finalize") if self.autosend.get() else _("MakeFile"), state="normal" if count else "disabled")
+        self.buttons["Create Feature"].configure(text=_("Create Next") if count else _("Create Feature"),
+                                                 state="normal" if self.form else "disabled")
+        self.buttons["MakeFile"].configure(text=_("Finalize") if self.autosend.get() else _("MakeFile"),
+                                           state="normal" if count else "disabled")
         self.buttons["SendFileToAxis"].configure(state="normal" if self.last else "disabled")
-        for text, name in (("Preamble", self.program.preamble), ("Subfile", self.form.path.name if self.form else ""), ("Postamble", self.program.postamble)):
+        for text, name in (("Preamble", self.program.preamble), ("Subfile", self.form.path.name if self.form else ""),
+                           ("Postamble", self.program.postamble)):
             self.names[text].configure(text=os.path.basename(name) if not name.startswith(":") else name)
 
     # -- the form -----------------------------------------------------------------------
@@ -126,7 +133,8 @@ class Page:
             self.say(str(error), True)
             self.show_state()
             return False
-        kept = {row[0].name: row[2].get() for row in self.rows} if self.retain.get() and self.form and self.form.path == form.path else {}
+        kept = ({row[0].name: row[2].get() for row in self.rows}
+                if self.retain.get() and self.form and self.form.path == form.path else {})
         self.form = form
         self.show_form(kept)
         self.say(form.info or _("%s: %d parameters") % (form.path.name, len(form.parameters)))
@@ -141,11 +149,13 @@ class Page:
         for row, parameter in enumerate(self.form.parameters, 1):
             text = tk.StringVar(inner, kept.get(parameter.name, parameter.default))
             number = ttk.Label(inner, text=f"{parameter.number}", style="Faint.TLabel")
-            entry = tk.Entry(inner, textvariable=text, width=self.o.vwidth, justify="right", highlightthickness=1, relief="flat", borderwidth=1,
-                             highlightbackground=self.style.colours["line"], highlightcolor=self.style.colours["select"])
+            entry = tk.Entry(inner, textvariable=text, width=self.o.vwidth, justify="right", highlightthickness=1,
+                             relief="flat", borderwidth=1, highlightbackground=self.style.colours["line"],
+                             highlightcolor=self.style.colours["select"])
             label = ttk.Label(inner, text=parameter.label or parameter.name, wraplength=px(8) * self.o.cwidth)
             for column, widget in enumerate((number, entry, label)):
-                widget.grid(row=row, column=column, sticky="w", padx=px(3), pady=px(1), ipady=self.style.roomy(1, 7) - 1 if widget is entry else 0)
+                widget.grid(row=row, column=column, sticky="w", padx=px(3), pady=px(1),
+                            ipady=self.style.roomy(1, 7) - 1 if widget is entry else 0)
             self.entries.wheel(number, entry, label)
             text.trace_add("write", lambda *_, t=text, e=entry: self.colour(t, e))
             entry.bindtags((self.key_tag, *entry.bindtags()))
@@ -276,7 +286,8 @@ class Page:
         if not self.last:
             return
         try:
-            done = subprocess.run(["axis-remote", str(Path(self.last).resolve())], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            done = subprocess.run(["axis-remote", str(Path(self.last).resolve())], stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                   timeout=20)
             problem = done.stdout.strip() if done.returncode else ""
         except (OSError, subprocess.TimeoutExpired) as error:
@@ -286,7 +297,9 @@ class Page:
     def exit(self):
         """Features that are in no file are asked for."""
         if self.program.features:
-            answer = messagebox.askyesnocancel(TITLE, _("%d features are in no file yet.\nWrite it?") % len(self.program.features), parent=self.parent)
+            answer = messagebox.askyesnocancel(TITLE,
+                                               _("%d features are in no file yet.\nWrite it?")
+                                               % len(self.program.features), parent=self.parent)
             if answer is None:
                 return
             if answer:
@@ -306,11 +319,14 @@ class Page:
         def flip(variable):
             variable.set(not variable.get())
             self.show_state()
-        actions = {"a": lambda: flip(self.autosend), "c": self.clear, "d": self.defaults, "e": lambda: self.edit(self.last), "E": lambda: flip(self.expand),
-                   "f": self.create, "F": self.finalize, "k": self.show_keys, "n": self.restart, "p": self.choose_preamble, "P": self.choose_postamble,
+        actions = {"a": lambda: flip(self.autosend), "c": self.clear, "d": self.defaults,
+                   "e": lambda: self.edit(self.last), "E": lambda: flip(self.expand),
+                   "f": self.create, "F": self.finalize, "k": self.show_keys, "n": self.restart,
+                   "p": self.choose_preamble, "P": self.choose_postamble,
                    "r": self.reread, "R": lambda: flip(self.retain), "q": lambda: flip(self.verbose),
                    "s": self.show_status, "S": self.show_status,
-                   "u": lambda: self.edit(self.form.path if self.form else None), "U": lambda: self.edit(self.program.preamble)}
+                   "u": lambda: self.edit(self.form.path if self.form else None),
+                   "U": lambda: self.edit(self.program.preamble)}
         for key, action in actions.items():
             def handler(_event, a=action):
                 a()

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """ngcgui in tabs of AXIS: [DISPLAY]TKPKG = Ngcgui 1.0, one tab for each [DISPLAY]NGCGUI_SUBFILE.
 
-The Tcl packages Ngcgui and Ngcguittt (tcl/pkgIndex.tcl) call ::ngcgui::embed and ::ngcgui::embed_text, which offer() has made.
+The Tcl packages Ngcgui and Ngcguittt (tcl/pkgIndex.tcl) call ::ngcgui::embed and ::ngcgui::embed_text, which offer()
+has made.
 """
 
 import tempfile
@@ -25,8 +26,9 @@ class Tabs:
         self.app, self.pages, self.count = app, [], 0
         self.folder = tempfile.TemporaryDirectory(prefix="ngcgui-")     # of the programs; gone with AXIS
         root = app.root
-        self.style = getattr(app, "style", None) or tkstyle.Style(tkstyle.DARK if tkstyle.wants_dark() else tkstyle.LIGHT, tkstyle.wants_dark(),
-                                                                   tkstyle.screen_scale(root))
+        self.style = getattr(app, "style",
+                             None) or tkstyle.Style(tkstyle.DARK if tkstyle.wants_dark() else tkstyle.LIGHT,
+                                                    tkstyle.wants_dark(), tkstyle.screen_scale(root))
         self.words = (self.find("DISPLAY", "NGCGUI_OPTIONS") or "").split()
         for name in subfiles:
             self.add(name.strip('"'))
@@ -57,8 +59,9 @@ class Tabs:
 
     def remove(self, page):
         """The tab goes; one with features asks first."""
-        if page.program.features and not messagebox.askyesno("ngcgui", _("%d features are in no file yet. Remove the tab?") % len(page.program.features),
-                                                             parent=self.app.root):
+        if page.program.features and not messagebox.askyesno("ngcgui",
+                                                             _("%d features are in no file yet. Remove the tab?")
+                                                             % len(page.program.features), parent=self.app.root):
             return
         self.pages.remove(page)
         self.notebook("raise", "preview")
@@ -86,11 +89,14 @@ class EmbeddedPage(Page):
         super().__init__(frame, style, o, tabs.find, self.position)
         self.buttons["Exit"].pack_forget()
         self.bind_keys(lambda key, action: frame.bind_class(self.key_tag, key, action))
-        frame.bind_class(self.key_tag, "<Escape>", lambda event: tabs.notebook("raise", "preview") and None)     # and what AXIS does
+        # and what AXIS does
+        frame.bind_class(self.key_tag, "<Escape>", lambda event: tabs.notebook("raise", "preview") and None)
         row = ttk.Frame(self.frame)
         row.pack(side="bottom", fill="x")
-        for text, option, action in ((N_("new"), "nonew", lambda: tabs.add(o.subfile)), (N_("remove"), "noremove", lambda: tabs.remove(self)),
-                                     (N_("\N{LEFTWARDS ARROW} move"), "", lambda: tabs.move(self, -1)), (N_("move \N{RIGHTWARDS ARROW}"), "", lambda: tabs.move(self, 1))):
+        for text, option, action in ((N_("new"), "nonew", lambda: tabs.add(o.subfile)),
+                                     (N_("remove"), "noremove", lambda: tabs.remove(self)),
+                                     (N_("\N{LEFTWARDS ARROW} move"), "", lambda: tabs.move(self, -1)),
+                                     (N_("move \N{RIGHTWARDS ARROW}"), "", lambda: tabs.move(self, 1))):
             if not option or option not in tabs.words:
                 self.buttons[text] = ttk.Button(row, text=_(text), takefocus=False, command=action)
                 self.buttons[text].pack(side="left", padx=1)

@@ -13,7 +13,8 @@ from .textfiles import DEFAULT, Failed, Tracing, command_of, subroutine, word_of
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 LOOK_MS = 50
 PATIENCE_S = 30
-ROWS = (("text", N_("Text"), ""), ("font", N_("Font file"), FONT), ("scale", N_("Scale"), "1"), ("more", N_("More options"), ""), ("name", N_("Name of the subfile"), ""))
+ROWS = (("text", N_("Text"), ""), ("font", N_("Font file"), FONT), ("scale", N_("Scale"), "1"),
+        ("more", N_("More options"), ""), ("name", N_("Name of the subfile"), ""))
 
 
 class TextPage:
@@ -29,7 +30,8 @@ class TextPage:
             ttk.Label(self.frame, text=_(label)).grid(row=row, column=0, sticky="w", padx=(0, px(8)), pady=px(2))
             self.values[key] = tk.StringVar(frame, value)
             self.entries[key] = tk.Entry(self.frame, textvariable=self.values[key], relief="flat", highlightthickness=1,
-                                         highlightbackground=style.colours["line"], highlightcolor=style.colours["select"])
+                                         highlightbackground=style.colours["line"],
+                                         highlightcolor=style.colours["select"])
             self.entries[key].grid(row=row, column=1, sticky="ew", pady=px(2))
             self.entries[key].bind("<Return>", lambda event: self.make())
         self.frame.columnconfigure(1, weight=1)
@@ -100,7 +102,8 @@ class TextPage:
 
     def finish(self, code):
         path, text = self.path(), self.values["text"].get().strip()
-        info = ", ".join(w for w in (text, Path(self.values["font"].get().strip()).stem, self.values["scale"].get().strip()) if w)
+        info = ", ".join(w for w in (text, Path(self.values["font"].get().strip()).stem,
+                                     self.values["scale"].get().strip()) if w)
         try:
             write(path, subroutine(path.stem, code, info))
             form_of(path)

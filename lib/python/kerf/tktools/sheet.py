@@ -65,12 +65,15 @@ class Sheet(ttk.Frame):
         entries, texts = [], []
         for place, column in enumerate(self.columns):
             text = tk.StringVar(self)
-            entry = tk.Entry(self.inner, textvariable=text, width=column.chars, justify="left" if column.left else "right", relief="flat",
+            entry = tk.Entry(self.inner, textvariable=text, width=column.chars,
+                             justify="left" if column.left else "right", relief="flat",
                              borderwidth=0, highlightthickness=1, highlightcolor=self.style.colours["select"],
                              highlightbackground=self.style.colours["line"])
-            entry.grid(row=line + 1, column=place + 1, sticky="ew", ipady=self.style.roomy(1, 8) - 1, padx=(self.style.px(4) if column.left else 0, 1))
+            entry.grid(row=line + 1, column=place + 1, sticky="ew", ipady=self.style.roomy(1, 8) - 1,
+                       padx=(self.style.px(4) if column.left else 0, 1))
             text.trace_add("write", lambda *_, l=line, p=place: self._typed(l, p))
-            for key, right, down in (("Left", -1, 0), ("Right", 1, 0), ("Up", 0, -1), ("Down", 0, 1), ("Return", 0, 1), ("KP_Enter", 0, 1)):
+            for key, right, down in (("Left", -1, 0), ("Right", 1, 0), ("Up", 0, -1), ("Down", 0, 1), ("Return", 0, 1),
+                                     ("KP_Enter", 0, 1)):
                 entry.bind(f"<{key}>", lambda event, l=line, p=place, r=right, d=down: self.move(l, p, r, d))
             for key, pages in (("Prior", -1), ("Next", 1)):
                 entry.bind(f"<{key}>", lambda event, n=pages: self.scroll_to(self.top + n * self.visible()))
@@ -82,7 +85,8 @@ class Sheet(ttk.Frame):
     def _wheel(self, widget):
         widget.bind("<Button-4>", lambda event: self.scroll_to(self.top - 3))
         widget.bind("<Button-5>", lambda event: self.scroll_to(self.top + 3))
-        widget.bind("<MouseWheel>", lambda event: self.scroll_to(self.top - 3 * (event.delta > 0) + 3 * (event.delta < 0)))
+        widget.bind("<MouseWheel>",
+                    lambda event: self.scroll_to(self.top - 3 * (event.delta > 0) + 3 * (event.delta < 0)))
 
     # -- what is in sight ---------------------------------------------------------------
 

@@ -2,7 +2,8 @@
 """Subroutine files of text: what a tracing program ([DISPLAY]TTT, truetype-tracer) writes becomes a form of ngcgui.
 
 The program writes G-code to standard output. Settings at its head, `#1=0.1 (safe height)` in order from #1 or
-`#<depth>=-0.5 (depth)`, become the parameters of the subroutine; other numbers up to #30 become names, the end (M2, M30, %) goes.
+`#<depth>=-0.5 (depth)`, become the parameters of the subroutine; other numbers up to #30 become names, the end (M2,
+M30, %) goes.
 """
 
 import re
@@ -43,11 +44,12 @@ class Tracing:
     def __init__(self, command):
         self.name, self.out, self.trouble = command[0], tempfile.TemporaryFile(), tempfile.TemporaryFile()
         try:
-            self.child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self.out, stderr=self.trouble, start_new_session=True)
+            self.child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self.out, stderr=self.trouble,
+                                          start_new_session=True)
         except OSError as error:
             missing = isinstance(error, FileNotFoundError)
-            raise Failed(_("%s is not installed: install it, or name another program in [DISPLAY]TTT") % self.name if missing
-                         else f"{self.name}: {error.strerror}") from None
+            raise Failed(_("%s is not installed: install it, or name another program in [DISPLAY]TTT") % self.name
+                         if missing else f"{self.name}: {error.strerror}") from None
 
     def poll(self):
         status = self.child.poll()
@@ -89,7 +91,8 @@ def subroutine(name, code, info):
                 parameters.append(f"#<{word}> = #{number} (={setting[2]} {note(label)[1:-1]})")
                 continue
         body.append(line.rstrip())
-    body = [NUMBER.sub(lambda m: m[0] if not len(parameters) < int(m[1]) <= MOST else f"#<n{m[1]}>", line) for line in body]
+    body = [NUMBER.sub(lambda m: m[0] if not len(parameters) < int(m[1]) <= MOST else f"#<n{m[1]}>", line)
+            for line in body]
     return "\n".join([note("info: " + info), note(MADE), f"o<{name}> sub", *parameters, *body, f"o<{name}> endsub", ""])
 
 

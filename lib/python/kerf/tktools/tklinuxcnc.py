@@ -19,13 +19,16 @@ from .tklinuxcnc_popups import Popups
 
 TITLE = "TkLinuxCNC"
 RELEASE_MS = 40             # a key that repeats is let go and pressed again within this time
-STATES = {linuxcnc.STATE_ESTOP: _("ESTOP"), linuxcnc.STATE_ESTOP_RESET: _("ESTOP RESET"), linuxcnc.STATE_OFF: _("OFF"), linuxcnc.STATE_ON: _("ON")}
+STATES = {linuxcnc.STATE_ESTOP: _("ESTOP"), linuxcnc.STATE_ESTOP_RESET: _("ESTOP RESET"), linuxcnc.STATE_OFF: _("OFF"),
+          linuxcnc.STATE_ON: _("ON")}
 MODES = {linuxcnc.MODE_MANUAL: _("MANUAL"), linuxcnc.MODE_AUTO: _("AUTO"), linuxcnc.MODE_MDI: "MDI"}
-SHOWN = {"estop": STATES.values(), "mist": (_("MIST ON"), _("MIST OFF")), "spindle": (_("SPINDLE FORWARD"), _("SPINDLE REVERSE"), _("SPINDLE OFF")),
+SHOWN = {"estop": STATES.values(), "mist": (_("MIST ON"), _("MIST OFF")),
+         "spindle": (_("SPINDLE FORWARD"), _("SPINDLE REVERSE"), _("SPINDLE OFF")),
          "brake": (_("BRAKE ON"), _("BRAKE OFF")), "flood": (_("FLOOD ON"), _("FLOOD OFF")), "mode": MODES.values()}
 CONTINUOUS = _("continuous")
 TYPING = ("Entry", "TEntry", "Text", "TCombobox")
-JOG_KEYS = {"Left": ("X", -1), "Right": ("X", 1), "Down": ("Y", -1), "Up": ("Y", 1), "Next": ("Z", -1), "Prior": ("Z", 1)}
+JOG_KEYS = {"Left": ("X", -1), "Right": ("X", 1), "Down": ("Y", -1), "Up": ("Y", 1), "Next": ("Z", -1),
+            "Prior": ("Z", 1)}
 
 
 class Window:
@@ -46,7 +49,8 @@ class Window:
         self._program()
         self._keys()
         root.update_idletasks()
-        tkstyle.centre(root, max(style.px(760), root.winfo_reqwidth()), max(style.px(640), root.winfo_reqheight()), (style.px(560), style.px(420)))
+        tkstyle.centre(root, max(style.px(760), root.winfo_reqwidth()), max(style.px(640), root.winfo_reqheight()),
+                       (style.px(560), style.px(420)))
         root.protocol("WM_DELETE_WINDOW", self.exit)
         self.tick()
 
@@ -60,9 +64,11 @@ class Window:
         self.units = tk.StringVar(self.root, "auto")
         self.selected = tk.IntVar(self.root, 0)
         self.incremental = tk.StringVar(self.root, CONTINUOUS)
-        self.linear, self.angular = tk.DoubleVar(self.root, self.m.linear_speed), tk.DoubleVar(self.root, self.m.angular_speed)
+        self.linear, self.angular = (tk.DoubleVar(self.root, self.m.linear_speed),
+                                     tk.DoubleVar(self.root, self.m.angular_speed))
         self.optional_stop, self.override = tk.BooleanVar(self.root), tk.BooleanVar(self.root)
-        self.balloons = tk.BooleanVar(self.root, (find("DISPLAY", "BALLOON_HELP") or "0").lower() in ("1", "yes", "true", "on"))
+        self.balloons = tk.BooleanVar(self.root,
+                                      (find("DISPLAY", "BALLOON_HELP") or "0").lower() in ("1", "yes", "true", "on"))
 
     def _menus(self):
         bar = tk.Menu(self.root)
@@ -71,16 +77,22 @@ class Window:
         ini = str(self.m.path)
         run = self.run_program
         entries = {
-            N_("File"): ((N_("Open..."), self.open), (N_("Edit..."), self.edit), (N_("Tool Table Editor..."), self.edit_tools), (N_("Reload Tool Table"), self.m.command.load_tool_table),
+            N_("File"): ((N_("Open..."), self.open), (N_("Edit..."), self.edit),
+                         (N_("Tool Table Editor..."), self.edit_tools),
+                         (N_("Reload Tool Table"), self.m.command.load_tool_table),
                      (N_("Reset"), self.m.command.reset_interpreter), None, (N_("Exit"), self.exit)),
-            N_("View"): ((N_("Offsets and Variables..."), self.popups.offsets), (N_("Diagnostics..."), lambda: run("linuxcnctop", "-ini", ini)),
+            N_("View"): ((N_("Offsets and Variables..."), self.popups.offsets),
+                         (N_("Diagnostics..."), lambda: run("linuxcnctop", "-ini", ini)),
                      (N_("Backplot..."), self.popups.backplot)),
-            N_("Settings"): ((N_("Calibration..."), lambda: run("emccalib", "-ini", ini)), (N_("Testing..."), None), (N_("Debug..."), lambda: run("debuglevel", "-ini", ini)),
+            N_("Settings"): ((N_("Calibration..."), lambda: run("emccalib", "-ini", ini)), (N_("Testing..."), None),
+                             (N_("Debug..."), lambda: run("debuglevel", "-ini", ini)),
                          (N_("Font..."), self.choose_font)),
             N_("Units"): tuple((unit, ("unit", unit)) for unit in ("auto", "inches", "mm", "cm")),
             N_("Utilities"): ((N_("Hal Scope"), lambda: run("halscope")), (N_("Hal Meter"), lambda: run("halmeter"))),
-            N_("Scripts"): ((N_("Set Coordinates"), self.popups.set_coordinates), (N_("HAL Show"), lambda: run("halshow")), (N_("HAL Config"), lambda: run("halconfig"))),
-            N_("Help"): ((N_("Help..."), self.help), (N_("Balloon help"), ("check", self.balloons)), (N_("About..."), self.about)),
+            N_("Scripts"): ((N_("Set Coordinates"), self.popups.set_coordinates),
+                            (N_("HAL Show"), lambda: run("halshow")), (N_("HAL Config"), lambda: run("halconfig"))),
+            N_("Help"): ((N_("Help..."), self.help), (N_("Balloon help"), ("check", self.balloons)),
+                         (N_("About..."), self.about)),
         }
         for title, lines in entries.items():
             menu = self.menus[title] = tk.Menu(bar, tearoff=False)
@@ -93,7 +105,8 @@ class Window:
                 elif isinstance(line[1], tuple):
                     menu.add_checkbutton(label=_(line[0]), variable=line[1][1])
                 else:
-                    menu.add_command(label=_(line[0]), command=line[1] or (lambda: None), state="normal" if line[1] else "disabled")
+                    menu.add_command(label=_(line[0]), command=line[1] or (lambda: None),
+                                     state="normal" if line[1] else "disabled")
 
     def _state_row(self):
         """Buttons that show a state and change it."""
@@ -102,13 +115,20 @@ class Window:
         row.pack(fill="x")
         self.state_buttons = {}
         choices = {
-            "estop": ((N_("Estop on"), lambda: m.state(linuxcnc.STATE_ESTOP)), (N_("Estop off"), lambda: m.state(linuxcnc.STATE_ESTOP_RESET)),
-                      (N_("Machine on"), lambda: m.state(linuxcnc.STATE_ON)), (N_("Machine off"), lambda: m.state(linuxcnc.STATE_OFF))),
-            "mist": ((N_("Mist on"), lambda: m.command.mist(linuxcnc.MIST_ON)), (N_("Mist off"), lambda: m.command.mist(linuxcnc.MIST_OFF))),
-            "spindle": ((N_("Spindle forward"), lambda: m.spindle(1)), (N_("Spindle reverse"), lambda: m.spindle(-1)), (N_("Spindle off"), lambda: m.spindle(0))),
-            "brake": ((N_("Brake on"), lambda: m.command.brake(linuxcnc.BRAKE_ENGAGE)), (N_("Brake off"), lambda: m.command.brake(linuxcnc.BRAKE_RELEASE))),
-            "flood": ((N_("Flood on"), lambda: m.command.flood(linuxcnc.FLOOD_ON)), (N_("Flood off"), lambda: m.command.flood(linuxcnc.FLOOD_OFF))),
-            "mode": ((N_("Manual"), lambda: m.mode(linuxcnc.MODE_MANUAL)), (N_("Auto"), lambda: m.mode(linuxcnc.MODE_AUTO)), ("MDI", lambda: m.mode(linuxcnc.MODE_MDI))),
+            "estop": ((N_("Estop on"), lambda: m.state(linuxcnc.STATE_ESTOP)),
+                      (N_("Estop off"), lambda: m.state(linuxcnc.STATE_ESTOP_RESET)),
+                      (N_("Machine on"), lambda: m.state(linuxcnc.STATE_ON)),
+                      (N_("Machine off"), lambda: m.state(linuxcnc.STATE_OFF))),
+            "mist": ((N_("Mist on"), lambda: m.command.mist(linuxcnc.MIST_ON)),
+                     (N_("Mist off"), lambda: m.command.mist(linuxcnc.MIST_OFF))),
+            "spindle": ((N_("Spindle forward"), lambda: m.spindle(1)), (N_("Spindle reverse"), lambda: m.spindle(-1)),
+                        (N_("Spindle off"), lambda: m.spindle(0))),
+            "brake": ((N_("Brake on"), lambda: m.command.brake(linuxcnc.BRAKE_ENGAGE)),
+                      (N_("Brake off"), lambda: m.command.brake(linuxcnc.BRAKE_RELEASE))),
+            "flood": ((N_("Flood on"), lambda: m.command.flood(linuxcnc.FLOOD_ON)),
+                      (N_("Flood off"), lambda: m.command.flood(linuxcnc.FLOOD_OFF))),
+            "mode": ((N_("Manual"), lambda: m.mode(linuxcnc.MODE_MANUAL)),
+                     (N_("Auto"), lambda: m.mode(linuxcnc.MODE_AUTO)), ("MDI", lambda: m.mode(linuxcnc.MODE_MDI))),
         }
         for column, (name, entries) in enumerate(choices.items()):
             button = self.state_buttons[name] = ttk.Menubutton(row)
@@ -117,7 +137,8 @@ class Window:
                 menu.add_command(label=_(text), command=action)
             button.configure(menu=menu)
             button.grid(row=0, column=column, sticky="ew", padx=px(2))
-            row.columnconfigure(column, weight=1, minsize=self.widest(button, SHOWN[name]) + 2 * px(2))     # it stays where it is
+            # it stays where it is
+            row.columnconfigure(column, weight=1, minsize=self.widest(button, SHOWN[name]) + 2 * px(2))
             self.balloon(button, _("Shows the state; a click changes it"))
         self.abort_button = ttk.Button(row, text=_("ABORT"), command=self.abort, takefocus=False)
         self.abort_button.grid(row=0, column=len(choices), sticky="ew", padx=px(2))
@@ -155,9 +176,12 @@ class Window:
             self.values.append(value)
         choice = ttk.Frame(box)
         choice.grid(row=0, column=2, rowspan=max(3, len(self.values)), padx=px(12), sticky="n")
-        for row, (variable, off, on) in enumerate(((self.relative, _("machine"), _("relative")), (self.actual, _("commanded"), _("actual")), (self.world, _("joint"), _("world")))):
+        for row, (variable, off, on) in enumerate(((self.relative, _("machine"), _("relative")),
+                                                   (self.actual, _("commanded"), _("actual")),
+                                                   (self.world, _("joint"), _("world")))):
             for column, (text, value) in enumerate(((on, 1), (off, 0))):
-                button = ttk.Radiobutton(choice, text=text, value=value, variable=variable, takefocus=False, command=self.choose_world if variable is self.world else None)
+                button = ttk.Radiobutton(choice, text=text, value=value, variable=variable, takefocus=False,
+                                         command=self.choose_world if variable is self.world else None)
                 button.grid(row=row, column=column, sticky="w")
         self.info = ttk.Label(choice, justify="left")
         self.info.grid(row=4, column=0, columnspan=2, sticky="w", pady=(px(8), 0))
@@ -177,24 +201,30 @@ class Window:
         self.home_button.pack(side="left", padx=px(2))
         ttk.Checkbutton(jog, text=_("override limits"), variable=self.override, takefocus=False,
                         command=lambda: m.command.override_limits()).pack(side="left", padx=px(4))
-        self.increments = ttk.Combobox(box, textvariable=self.incremental, values=[CONTINUOUS] + m.increments, state="readonly", takefocus=False, width=14)
+        self.increments = ttk.Combobox(box, textvariable=self.incremental, values=[CONTINUOUS] + m.increments,
+                                       state="readonly", takefocus=False, width=14)
         self.increments.pack(fill="x", pady=px(4))
         self.scales = {}
-        for name, variable, most in ((N_("Jog speed (linear)"), self.linear, m.max_linear), (N_("Jog speed (angular)"), self.angular, m.max_angular)):
+        for name, variable, most in ((N_("Jog speed (linear)"), self.linear, m.max_linear),
+                                     (N_("Jog speed (angular)"), self.angular, m.max_angular)):
             self.scales[name] = self.scale(box, name, variable, 0, most)
         self.feed, self.spindle = tk.DoubleVar(self.root, 100), tk.DoubleVar(self.root, 100)
         find = m.ini.find
-        self.scales["feed"] = self.scale(box, N_("Feed override %"), self.feed, 0, 100 * float(find("DISPLAY", "MAX_FEED_OVERRIDE") or 1.2),
+        self.scales["feed"] = self.scale(box, N_("Feed override %"), self.feed, 0,
+                                         100 * float(find("DISPLAY", "MAX_FEED_OVERRIDE") or 1.2),
                                          lambda v: m.command.feedrate(float(v) / 100))
-        self.scales["spindle"] = self.scale(box, N_("Spindle override %"), self.spindle, 100 * float(find("DISPLAY", "MIN_SPINDLE_OVERRIDE") or 0),
-                                            100 * float(find("DISPLAY", "MAX_SPINDLE_OVERRIDE") or 1), lambda v: m.command.spindleoverride(float(v) / 100))
+        self.scales["spindle"] = self.scale(box, N_("Spindle override %"), self.spindle,
+                                            100 * float(find("DISPLAY", "MIN_SPINDLE_OVERRIDE") or 0),
+                                            100 * float(find("DISPLAY", "MAX_SPINDLE_OVERRIDE") or 1),
+                                            lambda v: m.command.spindleoverride(float(v) / 100))
 
     def scale(self, parent, text, variable, low, high, command=None):
         row = ttk.Frame(parent)
         row.pack(fill="x")
         label = ttk.Label(row, width=max(26, len(_(text)) + 7))
         label.pack(side="left")
-        slider = ttk.Scale(row, from_=low, to=high, variable=variable, length=self.style.px(140), command=command, takefocus=False)
+        slider = ttk.Scale(row, from_=low, to=high, variable=variable, length=self.style.px(140), command=command,
+                           takefocus=False)
         slider.pack(side="right")
 
         def show(*_event):
@@ -220,7 +250,8 @@ class Window:
         row = ttk.Frame(self.root, padding=px(6))
         row.pack(side="bottom", fill="x")
         self.program_buttons = {}
-        for name, action in ((N_("Open"), self.open), (N_("Run"), self.run), (N_("Pause"), m.pause), (N_("Resume"), m.resume), (N_("Step"), m.step), (N_("Verify"), m.verify)):
+        for name, action in ((N_("Open"), self.open), (N_("Run"), self.run), (N_("Pause"), m.pause),
+                             (N_("Resume"), m.resume), (N_("Step"), m.step), (N_("Verify"), m.verify)):
             self.program_buttons[name] = ttk.Button(row, text=_(name), command=action, takefocus=False)
             self.program_buttons[name].pack(side="left", expand=True, fill="x", padx=px(2))
         ttk.Checkbutton(row, text=_("Optional Stop"), variable=self.optional_stop, takefocus=False,
@@ -256,8 +287,9 @@ class Window:
 
     def _keys(self):
         m, root = self.m, self.root
-        anywhere = {"F1": m.toggle_estop, "F2": m.toggle_power, "F3": lambda: m.mode(linuxcnc.MODE_MANUAL), "F4": lambda: m.mode(linuxcnc.MODE_AUTO),
-                    "F5": self.go_mdi, "F6": m.command.reset_interpreter, "Escape": self.abort, "Alt-o": self.open, "Alt-x": self.exit,
+        anywhere = {"F1": m.toggle_estop, "F2": m.toggle_power, "F3": lambda: m.mode(linuxcnc.MODE_MANUAL),
+                    "F4": lambda: m.mode(linuxcnc.MODE_AUTO), "F5": self.go_mdi, "F6": m.command.reset_interpreter,
+                    "Escape": self.abort, "Alt-o": self.open, "Alt-x": self.exit,
                     "Alt-t": self.popups.tool_offset}
         for key, action in anywhere.items():
             root.bind(f"<{key}>", lambda event, a=action: self.act(a))
@@ -267,14 +299,19 @@ class Window:
         root.bind("<Unmap>", lambda event: self.stop_jog() if event.widget is root else None)
         self.manual_keys = {
             "F7": lambda: m.command.mist(not m.stat.mist), "F8": lambda: m.command.flood(not m.stat.flood),
-            "F9": lambda: m.spindle(0 if m.stat.spindle[0]["direction"] else 1), "F10": lambda: m.spindle(0 if m.stat.spindle[0]["direction"] else -1),
-            "b": lambda: m.command.brake(linuxcnc.BRAKE_RELEASE), "B": lambda: m.command.brake(linuxcnc.BRAKE_ENGAGE), "Home": self.home,
-            "comma": lambda: self.faster(self.linear, -1, m.max_linear), "period": lambda: self.faster(self.linear, 1, m.max_linear),
-            "semicolon": lambda: self.faster(self.angular, -1, m.max_angular), "apostrophe": lambda: self.faster(self.angular, 1, m.max_angular),
+            "F9": lambda: m.spindle(0 if m.stat.spindle[0]["direction"] else 1),
+            "F10": lambda: m.spindle(0 if m.stat.spindle[0]["direction"] else -1),
+            "b": lambda: m.command.brake(linuxcnc.BRAKE_RELEASE), "B": lambda: m.command.brake(linuxcnc.BRAKE_ENGAGE),
+            "Home": self.home, "comma": lambda: self.faster(self.linear, -1, m.max_linear),
+            "period": lambda: self.faster(self.linear, 1, m.max_linear),
+            "semicolon": lambda: self.faster(self.angular, -1, m.max_angular),
+            "apostrophe": lambda: self.faster(self.angular, 1, m.max_angular),
             "c": self.toggle_continuous, "i": self.next_increment, "grave": lambda: self.selected.set(0),
-            "F11": lambda: m.command.spindle(linuxcnc.SPINDLE_DECREASE), "F12": lambda: m.command.spindle(linuxcnc.SPINDLE_INCREASE)}
+            "F11": lambda: m.command.spindle(linuxcnc.SPINDLE_DECREASE),
+            "F12": lambda: m.command.spindle(linuxcnc.SPINDLE_INCREASE)}
         self.auto_keys = {"o": self.open, "r": self.run, "p": m.pause, "s": m.resume, "a": m.step, "v": m.verify}
-        self.both_keys = {"at": lambda: self.actual.set(not self.actual.get()), "numbersign": lambda: self.relative.set(not self.relative.get()),
+        self.both_keys = {"at": lambda: self.actual.set(not self.actual.get()),
+                          "numbersign": lambda: self.relative.set(not self.relative.get()),
                           "dollar": self.toggle_world}
 
     def act(self, action):
@@ -299,7 +336,8 @@ class Window:
         elif mode == linuxcnc.MODE_AUTO and key.isdigit():
             self.m.command.feedrate((int(key) or 10) / 10)
         else:
-            keys = self.manual_keys if mode == linuxcnc.MODE_MANUAL else self.auto_keys if mode == linuxcnc.MODE_AUTO else {}
+            keys = (self.manual_keys if mode == linuxcnc.MODE_MANUAL else self.auto_keys
+                    if mode == linuxcnc.MODE_AUTO else {})
             action = keys.get(key) or (self.both_keys.get(key) if mode != linuxcnc.MODE_MDI else None)
             if not action:
                 return None
@@ -332,7 +370,8 @@ class Window:
         if self.m.stat.task_mode == linuxcnc.MODE_MANUAL:
             text = self.incremental.get()
             self.selected.set(row)
-            self.jog.start(row, direction, self.m.speed(row, self.linear.get(), self.angular.get()), None if text == CONTINUOUS else text, key)
+            self.jog.start(row, direction, self.m.speed(row, self.linear.get(), self.angular.get()),
+                           None if text == CONTINUOUS else text, key)
 
     def stop_jog(self):
         for pending in self.releases.values():
@@ -347,7 +386,8 @@ class Window:
         variable.set(min(max(variable.get() + step * most / 20, 0), most))
 
     def toggle_continuous(self):
-        self.incremental.set(CONTINUOUS if self.incremental.get() != CONTINUOUS or not self.m.increments else self.m.increments[0])
+        self.incremental.set(CONTINUOUS if self.incremental.get() != CONTINUOUS or not self.m.increments
+                             else self.m.increments[0])
 
     def next_increment(self):
         values = self.m.increments
@@ -380,7 +420,8 @@ class Window:
 
     def open(self):
         folder = os.path.expanduser(self.m.ini.find("DISPLAY", "PROGRAM_PREFIX") or ".")
-        path = filedialog.askopenfilename(parent=self.root, title=_("Open"), initialdir=folder, filetypes=((_("G-code"), "*.ngc *.nc *.tap"), (_("All files"), "*")))
+        path = filedialog.askopenfilename(parent=self.root, title=_("Open"), initialdir=folder,
+                                          filetypes=((_("G-code"), "*.ngc *.nc *.tap"), (_("All files"), "*")))
         if path:
             self.open_file(path)
 
@@ -400,7 +441,8 @@ class Window:
     def edit_tools(self):
         table = self.m.ini.find("EMCIO", "TOOL_TABLE")
         if table:
-            self.run_program(*(self.m.ini.find("DISPLAY", "TOOL_EDITOR") or "tooledit").split(), str(self.m.path.parent / os.path.expanduser(table)))
+            self.run_program(*(self.m.ini.find("DISPLAY", "TOOL_EDITOR") or "tooledit").split(),
+                             str(self.m.path.parent / os.path.expanduser(table)))
 
     def run_program(self, *words):
         try:
@@ -409,8 +451,8 @@ class Window:
             messagebox.showerror(TITLE, f"{words[0]}: {error.strerror}", parent=self.root)
 
     def choose_font(self):
-        size = simpledialog.askinteger(_("Font"), _("Height of the position's digits (pixels)"), parent=self.root, initialvalue=abs(self.font.cget("size")),
-                                       minvalue=8, maxvalue=200)
+        size = simpledialog.askinteger(_("Font"), _("Height of the position's digits (pixels)"), parent=self.root,
+                                       initialvalue=abs(self.font.cget("size")), minvalue=8, maxvalue=200)
         if size:
             self.font.configure(size=-size)
 
@@ -440,9 +482,9 @@ class Window:
         s, buttons = self.m.stat, self.state_buttons
         spindle = s.spindle[0]
         direction = {1: 0, -1: 1}.get(spindle["direction"], 2)
-        for name, text in (("estop", STATES.get(s.task_state, "?")), ("mist", SHOWN["mist"][not s.mist]), ("spindle", SHOWN["spindle"][direction]),
-                           ("brake", SHOWN["brake"][not spindle["brake"]]), ("flood", SHOWN["flood"][not s.flood]),
-                           ("mode", MODES.get(s.task_mode, "?"))):
+        for name, text in (("estop", STATES.get(s.task_state, "?")), ("mist", SHOWN["mist"][not s.mist]),
+                           ("spindle", SHOWN["spindle"][direction]), ("brake", SHOWN["brake"][not spindle["brake"]]),
+                           ("flood", SHOWN["flood"][not s.flood]), ("mode", MODES.get(s.task_mode, "?"))):
             buttons[name].configure(text=text)
         joints = not self.world.get()
         names = self.m.names(joints)
@@ -451,12 +493,15 @@ class Window:
             shown = row < len(names)
             label.configure(text=names[row] if shown else "")
             homed = shown and self.m.row_homed(row, joints)
-            value.configure(text="%10.4f" % self.m.position(row, joints, self.relative.get(), self.actual.get(), self.units.get()) if shown else "",
-                            foreground=colours["good" if homed else "bad"])
+            value.configure(text="%10.4f"
+                            % self.m.position(row, joints, self.relative.get(), self.actual.get(), self.units.get())
+                            if shown else "", foreground=colours["good" if homed else "bad"])
         unit = self.m.unit_name(self.units.get())
-        self.info.configure(text=_("Units: %s\nTool: %s\nSystem: G%s") % (unit, s.tool_in_spindle, self.m.system_name()))
+        self.info.configure(text=_("Units: %s\nTool: %s\nSystem: G%s")
+                            % (unit, s.tool_in_spindle, self.m.system_name()))
         gcodes = " ".join(f"G{c / 10:g}" for c in s.gcodes[1:] if c != -1)
-        self.codes.configure(text=f"{gcodes}  " + " ".join(f"M{c:g}" for c in s.mcodes[1:] if c != -1) + f"  F{s.settings[1]:.0f} S{s.settings[2]:.0f}")
+        self.codes.configure(text=f"{gcodes}  " + " ".join(f"M{c:g}" for c in s.mcodes[1:] if c != -1)
+                             + f"  F{s.settings[1]:.0f} S{s.settings[2]:.0f}")
         self.optional_stop.set(bool(s.optional_stop))
         for name, variable, value in (("feed", self.feed, s.feedrate), ("spindle", self.spindle, spindle["override"])):
             if not self.scales[name].instate(["pressed"]) and abs(variable.get() - 100 * value) > 0.5:

@@ -59,7 +59,8 @@ class Popups:
         name = m.ini.find("RS274NGC", "PARAMETER_FILE")
         if name:
             try:
-                lines += ["", _("Variables (%s):") % name] + (m.path.parent / name).read_text(errors="replace").splitlines()
+                lines += ["", _("Variables (%s):") % name] + (m.path.parent
+                                                              / name).read_text(errors="replace").splitlines()
             except OSError as error:
                 lines.append(f"{name}: {error.strerror}")
         self.text(_("Offsets and Variables"), "\n".join(lines))
@@ -104,7 +105,8 @@ class Popups:
         m = self.w.m
         m.stat.poll()
         system = f"G{m.system_name()}"
-        fields = {_("%s (now %.4f %s)") % (c, m.position(i, False, True, True, 'auto'), m.unit_name('auto')): "" for i, c in enumerate(m.letters)}
+        fields = {_("%s (now %.4f %s)") % (c, m.position(i, False, True, True, 'auto'), m.unit_name('auto')): ""
+                  for i, c in enumerate(m.letters)}
 
         def act(values):
             if values:
@@ -121,13 +123,15 @@ class Popups:
             number = int(values.get(TOOL, 0))
             if number > 0:
                 self.mdi(f"G10 L1 P{number} Z{values.get(LENGTH, 0):.6f} R{values.get(DIAMETER, 0) / 2:.6f}")
-        self.form(_("Tool offset"), {TOOL: str(max(m.stat.tool_in_spindle, 0)), LENGTH: f"{tool.zoffset:.4f}" if tool else "0",
+        self.form(_("Tool offset"),
+                  {TOOL: str(max(m.stat.tool_in_spindle, 0)), LENGTH: f"{tool.zoffset:.4f}" if tool else "0",
                                   DIAMETER: f"{tool.diameter:.4f}" if tool else "0"}, act)
 
     def backplot(self):
         """The way of the tool from above, as it goes."""
         top, style, m = self.open(_("Backplot")), self.w.style, self.w.m
-        canvas = tk.Canvas(top, width=style.px(420), height=style.px(360), background=style.colours["field"], highlightthickness=0)
+        canvas = tk.Canvas(top, width=style.px(420), height=style.px(360), background=style.colours["field"],
+                           highlightthickness=0)
         canvas.pack(fill="both", expand=True)
         points = []
         ttk.Button(top, text=_("Clear"), command=points.clear).pack(pady=style.px(4))
@@ -142,7 +146,9 @@ class Popups:
                 scale = min(canvas.winfo_width(), canvas.winfo_height()) * 0.9 / size
                 canvas.delete("all")
                 if len(points) > 1:
-                    canvas.create_line(*(v for x, y in points for v in (10 + (x - low[0]) * scale, canvas.winfo_height() - 10 - (y - low[1]) * scale)),
+                    canvas.create_line(*(v for x, y in points
+                                         for v in (10 + (x - low[0]) * scale,
+                                                   canvas.winfo_height() - 10 - (y - low[1]) * scale)),
                                        fill=style.colours["chart"])
             if top.winfo_exists():
                 top.after(PLOT_MS, draw)

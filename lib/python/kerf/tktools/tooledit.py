@@ -18,7 +18,8 @@ POLL_MS = 2000
 LOCK = "/tmp/linuxcnc.lock"     # while a machine runs
 CHARS = {"T": 5, "P": 5, "D": 9, "I": 10, "J": 10, "Q": 6, COMMENT: 18}
 AXIS_CHARS = 8
-TITLES = {"T": _("TOOL"), "P": _("POC"), "D": _("DIAM"), "I": _("FRONT"), "J": _("BACK"), "Q": _("ORIEN"), COMMENT: _("COMMENT")}
+TITLES = {"T": _("TOOL"), "P": _("POC"), "D": _("DIAM"), "I": _("FRONT"), "J": _("BACK"), "Q": _("ORIEN"),
+          COMMENT: _("COMMENT")}
 USAGE = f"""Usage: tooledit [COLUMN...] FILE
 Edits a tool table. Columns: {' '.join(COLUMNS)} (default: all)."""
 
@@ -66,11 +67,13 @@ class Window:
         self.status = ttk.Label(root, anchor="w", padding=style.px(4))
         self.status.pack(side="bottom", fill="x")
         self._make_buttons()
-        self.sheet = Sheet(root, style, columns, lambda key, text: key == COMMENT or is_number(key, text), self.changed, self.sort)
+        self.sheet = Sheet(root, style, columns, lambda key, text: key == COMMENT or is_number(key, text),
+                           self.changed, self.sort)
         self.sheet.pack(fill="both", expand=True, padx=style.px(4), pady=style.px(4))
         root.update_idletasks()
         least = self.bar.winfo_reqwidth() + style.px(8)         # with all buttons
-        tkstyle.centre(root, max(self.sheet.winfo_reqwidth() + style.px(30), least), style.px(460), (least, style.px(240)))
+        tkstyle.centre(root, max(self.sheet.winfo_reqwidth() + style.px(30), least), style.px(460),
+                       (least, style.px(240)))
         values = tclprefs.read(rc)[0]
         if "geometry" in values:
             try:
@@ -90,8 +93,8 @@ class Window:
         bar = self.bar = ttk.Frame(self.root, padding=self.style.px(4))
         bar.pack(side="bottom", fill="x")
         self.buttons = {}
-        for name, action in ((N_("Delete"), self.delete), (N_("AddTool"), self.add), (N_("ReRead"), self.reread), (N_("SaveFile"), self.save),
-                             (N_("ReLoadTable"), self.reload), (N_("Quit"), self.quit)):
+        for name, action in ((N_("Delete"), self.delete), (N_("AddTool"), self.add), (N_("ReRead"), self.reread),
+                             (N_("SaveFile"), self.save), (N_("ReLoadTable"), self.reload), (N_("Quit"), self.quit)):
             self.buttons[name] = ttk.Button(bar, text=_(name), command=action)
             self.buttons[name].pack(side="left", expand=True, fill="x", padx=self.style.px(2))
 
@@ -147,7 +150,9 @@ class Window:
             self.say(_("Not saved"), True)
             return False
         self.look_at_file()
-        if self.warned and not messagebox.askyesno("tooledit", _("%s.\nReplace it with what is shown here?") % self.warned, parent=self.root):
+        if self.warned and not messagebox.askyesno("tooledit",
+                                                   _("%s.\nReplace it with what is shown here?") % self.warned,
+                                                   parent=self.root):
             return False
         try:
             self.table.save()
@@ -166,7 +171,8 @@ class Window:
 
     def quit(self):
         if self.table.modified:
-            answer = messagebox.askyesnocancel("tooledit", _("Save the changes to %s?") % self.table.path.name, parent=self.root)
+            answer = messagebox.askyesnocancel("tooledit", _("Save the changes to %s?") % self.table.path.name,
+                                               parent=self.root)
             if answer is None or (answer and not self.save()):
                 return
         self.remember()
@@ -212,14 +218,17 @@ class Window:
         stamp = self.table.look()
         if stamp != self.table.stamp:
             self.table.stamp = stamp
-            self.warned = _("Warning: File changed by another process") if stamp else _("Warning: File deleted by another process")
+            self.warned = (_("Warning: File changed by another process") if stamp
+                           else _("Warning: File deleted by another process"))
             self.say(self.warned, True)
 
     def remember(self):
         """The place of the window, for the next time; the first time tells which columns there are."""
         first = not self.rc.exists()
         try:
-            kept = [] if first else [line for line in self.rc.read_text().splitlines() if not line.split()[:2] == ["set", "geometry"]]
+            kept = ([] if first else [line
+                                      for line in self.rc.read_text().splitlines()
+                                      if not line.split()[:2] == ["set", "geometry"]])
             tclprefs.write(self.rc, "\n".join(kept + [f"set geometry {self.root.geometry()}", ""]))
         except (OSError, UnicodeError) as error:
             print(f"tooledit: {self.rc}: {error}", file=sys.stderr)
@@ -227,7 +236,10 @@ class Window:
         if first:
             names = {letter: name for name, letter in COLUMNS.items()}
             used = " ".join(names[letter] for letter in self.letters if letter in names)
-            messagebox.showinfo("tooledit", _("Columns used: %s\n\nThe columns can be chosen:\n    tooledit x z diam FILE\nor in the INI file:\n    [DISPLAY]TOOL_EDITOR = tooledit x z diam") % used, parent=self.root)
+            messagebox.showinfo("tooledit",
+                                _("Columns used: %s\n\nThe columns can be chosen:\n    tooledit x z diam FILE\n"
+                                  "or in the INI file:\n    [DISPLAY]TOOL_EDITOR = tooledit x z diam") % used,
+                                  parent=self.root)
 
 
 def main(arguments):

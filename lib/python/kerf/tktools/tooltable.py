@@ -114,7 +114,8 @@ class Table:
         except UnicodeDecodeError:
             text, self.encoding = data.decode("latin-1"), "latin-1"
         self.rows, self.comments, self.rejected = [], [], []
-        for count, line in enumerate(text.split("\n")[:-1] if text.endswith("\n") else text.split("\n") if text else [], 1):
+        for count, line in enumerate(text.split("\n")[:-1] if text.endswith("\n") else text.split("\n") if text else [],
+                                     1):
             self._take(count, line.rstrip("\r"))
         if self.rejected:
             print(f"tooledit: {self.path}: Bogus lines in file ignored (they stay in the file)", file=sys.stderr)
@@ -159,7 +160,9 @@ class Table:
     def save(self):
         """The old file stays as FILE.bak. Raises OSError; then nothing has changed."""
         text = self.text()
-        kerf_tooltext.replace_file(str(self.path), text.encode(self.encoding, "replace" if self.encoding != "utf-8" else "strict"), True)
+        kerf_tooltext.replace_file(str(self.path),
+                                   text.encode(self.encoding, "replace" if self.encoding != "utf-8" else "strict"),
+                                   True)
         self.saved, self.stamp = text, self.look()
 
     def look(self):
@@ -181,11 +184,13 @@ class Table:
                     what = _("tool") if letter == "T" else _("pocket")
                     found.append(_("%s: %s %r must be a whole number, 0 or more") % (name, what, text))
                 elif text and not is_number(letter, text):
-                    found.append((_("%s: %s %r is not a whole number") if letter in WHOLE else _("%s: %s %r is not a number")) % (name, letter, text))
+                    found.append((_("%s: %s %r is not a whole number") if letter in WHOLE
+                                  else _("%s: %s %r is not a number")) % (name, letter, text))
                 elif text and letter == "Q" and not 0 <= int(text) <= MAX_ORIENTATION:
                     found.append(_("%s: orientation %s must be 0 to %d") % (name, text, MAX_ORIENTATION))
                 elif text and letter in ANGLES and abs(float(text)) > MAX_ANGLE:
-                    found.append((_("%s: front angle %s must be -%d to %d") if letter == "I" else _("%s: back angle %s must be -%d to %d"))
+                    found.append((_("%s: front angle %s must be -%d to %d") if letter == "I"
+                                  else _("%s: back angle %s must be -%d to %d"))
                                  % (name, text, MAX_ANGLE, MAX_ANGLE))
             for letter, seen, what in (("T", tools, _("tool")), ("P", pockets, _("pocket"))):
                 text = row.get(letter).strip()

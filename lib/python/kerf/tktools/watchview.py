@@ -98,7 +98,8 @@ class WatchView(ttk.Frame):
             row.laid = row.item.type, row.item.access
             y = place * height + height // 2
             size = px(8)
-            row.oval_id = canvas.create_oval(left, y - size, left + 2 * size, y + size, state="hidden", outline=self.style.colours["line"])
+            row.oval_id = canvas.create_oval(left, y - size, left + 2 * size, y + size, state="hidden",
+                                             outline=self.style.colours["line"])
             row.value_id = canvas.create_text(left, y, anchor="w", font="TkDefaultFont", fill=self.style.colours["ink"])
             row.name_id = canvas.create_text(buttons, y, anchor="w", text=row.item.name, font="TkDefaultFont",
                                              fill=self.style.colours[COLOURS[row.item.kind]])
@@ -113,7 +114,8 @@ class WatchView(ttk.Frame):
 
     def make_buttons(self, row, x, y):
         if row.item.type == "bit":
-            actions = [(_("Tgl"), lambda: self.set(row, not row.item.value())), (_("Set"), lambda: self.set(row, True)), (_("Clr"), lambda: self.set(row, False))]
+            actions = [(_("Tgl"), lambda: self.set(row, not row.item.value())), (_("Set"), lambda: self.set(row, True)),
+                       (_("Clr"), lambda: self.set(row, False))]
         else:
             actions = [(_("Set val"), lambda: self.ask(row))]
         frame = ttk.Frame(self.canvas, style="Field.TFrame")
@@ -133,13 +135,16 @@ class WatchView(ttk.Frame):
         canvas.delete("line")
         width = max(canvas.winfo_width(), (canvas.bbox("all") or (0, 0, 0, 0))[2])
         for place in range(1, len(self.rows) + 1):
-            canvas.create_line(0, place * height, width, place * height, fill=self.style.colours["heading"], tags="line")
+            canvas.create_line(0, place * height, width, place * height,
+                               fill=self.style.colours["heading"], tags="line")
         canvas.configure(scrollregion=(0, 0, width, max(len(self.rows) * height, 1)), yscrollincrement=height)
 
     def update_values(self):
         """What has changed in HAL; called at the update interval."""
         self.ticks += 1
-        if self.ticks % CONNECTION_TICKS == 0 and any(bool(row.item.refresh()) and (row.item.type, row.item.access) != row.laid for row in self.rows):
+        if (self.ticks % CONNECTION_TICKS == 0
+                and any(bool(row.item.refresh()) and (row.item.type, row.item.access) != row.laid
+                        for row in self.rows)):
             self.layout()
             return
         wide = self.widest
@@ -178,7 +183,8 @@ class WatchView(ttk.Frame):
 
     def ask(self, row):
         value = row.item.value()
-        text = self.ask_value(_("Set value"), f"{row.item.name} ({row.item.type})", parent=self, initialvalue=self.formats.text("", value) if value is None
+        text = self.ask_value(_("Set value"), f"{row.item.name} ({row.item.type})", parent=self,
+                              initialvalue=self.formats.text("", value) if value is None
                               else repr(value) if row.item.type == "float" else str(int(value)))
         if text is not None and text.strip():
             self.set(row, text)
@@ -211,7 +217,8 @@ class WatchView(ttk.Frame):
             menu.add_command(label=_("Set to .."), state=writable, command=lambda: self.ask(row))
         if item.kind == "pin" and item.info and item.info["signal"]:
             menu.add_command(label=_("Unlink pin (from %s)") % item.info["signal"], command=lambda: self.unlink(row))
-        menu.add_command(label=_("Show in Tree"), state="normal" if item.info else "disabled", command=lambda: self.show_in_tree(item))
+        menu.add_command(label=_("Show in Tree"), state="normal" if item.info else "disabled",
+                         command=lambda: self.show_in_tree(item))
         menu.add_separator()
         menu.add_command(label=_("Remove"), command=lambda: self.remove(row))
 

@@ -10,7 +10,8 @@ class Scrolled(ttk.Frame):
 
     def __init__(self, parent, style, fill=True):
         super().__init__(parent)
-        self.canvas = tk.Canvas(self, highlightthickness=0, background=style.colours["face"], yscrollincrement=style.px(16))
+        self.canvas = tk.Canvas(self, highlightthickness=0, background=style.colours["face"],
+                                yscrollincrement=style.px(16))
         self.bar = ttk.Scrollbar(self, command=self.canvas.yview)
         self.inner = ttk.Frame(self.canvas)
         self.item = self.canvas.create_window(0, 0, anchor="nw", window=self.inner)

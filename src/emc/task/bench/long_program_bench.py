@@ -70,7 +70,8 @@ for place in range(1, PLACES + 1):
     seen.append(look())
     line, wall = s.motion_line, time.monotonic() - started
     tell(f"line {line:9d}  {wall:8.1f} s  {line / wall:8.0f} lines/s  virtual {clock.now():8.1f} s ",
-         "  ".join(f"{name} {kb} kB {(cpu - seen[0][name][1]) / line * 1e6:.1f} us of CPU a line" for name, (kb, cpu) in seen[-1].items()))
+         "  ".join(f"{name} {kb} kB {(cpu - seen[0][name][1]) / line * 1e6:.1f} us of CPU a line"
+                   for name, (kb, cpu) in seen[-1].items()))
 need(lambda s: s.interp_state == INTERP_IDLE, "end", 1e7)
 grown = {name: seen[-1][name][0] - seen[1][name][0] for name in seen[1]}
 tell(f"end after {time.monotonic() - started:.1f} s; kB grown from the first place to the last: {grown}", messages())

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """axis_bench.py: the AXIS screen in real time, on a display of its own.
 
-Prints the time from the release of a jog key (as the X server tells it) to the stop command, and what the idle screen and that of a
-running program take of a processor. Called without arguments it starts the simulated mill with itself as the display program.
-PRESSES: how many keys.
+Prints the time from the release of a jog key (as the X server tells it) to the stop command, and what the idle screen
+and that of a running program take of a processor. Called without arguments it starts the simulated mill with itself as
+the display program. PRESSES: how many keys.
 """
 import os
 import resource
@@ -24,10 +24,12 @@ PRESSES, CPU_S = int(os.environ.get("PRESSES", "60")), 10.0
 def outside():
     with tempfile.TemporaryDirectory() as folder:
         machine = shutil.copytree(TOP / "configs/sim/mill", f"{folder}/machine")
-        Path(folder, "part.ngc").write_text("G21 G90 F2000\n" + "".join(f"G1 X{n % 50} Y{n % 7}\n" for n in range(4000)) + "M2\n")
+        Path(folder, "part.ngc").write_text("G21 G90 F2000\n"
+                                            + "".join(f"G1 X{n % 50} Y{n % 7}\n" for n in range(4000)) + "M2\n")
         env = os.environ | {"HOME": folder}
-        return subprocess.run([TOP / "tests/lib/with-display", "1280x1024", "linuxcnc", "-r", "-D", f"{__file__} {folder}/part.ngc",
-                               f"{machine}/mill.ini"], env=env, stdin=subprocess.DEVNULL).returncode
+        return subprocess.run([TOP / "tests/lib/with-display", "1280x1024", "linuxcnc", "-r", "-D",
+                               f"{__file__} {folder}/part.ngc", f"{machine}/mill.ini"], env=env,
+                               stdin=subprocess.DEVNULL).returncode
 
 
 def key(what, name):
@@ -70,7 +72,8 @@ class Bench:
             key("keyup", name)
             yield 0.15 + (n % 10) * 0.007
         d = sorted(self.delays)
-        print(f"key release to stop command: {len(d)} of {PRESSES}, median {1000 * statistics.median(d):.1f} ms, worst {1000 * d[-1]:.1f} ms", flush=True)
+        print(f"key release to stop command: {len(d)} of {PRESSES}, median {1000 * statistics.median(d):.1f} ms, "
+              f"worst {1000 * d[-1]:.1f} ms", flush=True)
 
     def share(self, what):
         begin, used = time.monotonic(), cpu()

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""axis_load_bench.py [LINES...]: what an operator waits for when AXIS opens a program, in real time, on a display of its own.
+"""axis_load_bench.py [LINES...]: what an operator waits for when AXIS opens a program, in real time, on a display of
+its own.
 
-For each size (a zigzag surface, see preview_bench.py): seconds until the program is opened, the longest time in which the screen did
-not answer and the longest that it worked for without a look at its events (on a loaded machine the first says little), the most memory
-of the screen and of the processes it started, MB.
+For each size (a zigzag surface, see preview_bench.py): seconds until the program is opened, the longest time in which
+the screen did not answer and the longest that it worked for without a look at its events (on a loaded machine the
+first says little), the most memory of the screen and of the processes it started, MB.
 """
 import os
 import shutil
@@ -28,7 +29,8 @@ class Gaps:
         self.look()
 
     def look(self):
-        self.worst, self.worst_work = max(self.worst, time.monotonic() - self.last), max(self.worst_work, time.thread_time() - self.last_work)
+        self.worst, self.worst_work = (max(self.worst, time.monotonic() - self.last),
+                                       max(self.worst_work, time.thread_time() - self.last_work))
         if self.going:
             if time.monotonic() - self.weighed > 0.2:        # takes long itself
                 self.weighed, self.memory = time.monotonic(), max(self.memory, family_mb(os.getpid()))
@@ -73,7 +75,8 @@ def measure(ini_path, sizes):
             time.sleep(0.002)
         gaps.going = False
         root.update()
-        print(f"{size:8d} lines: opened in {opened:.2f} s, longest silence {gaps.worst * 1000:.0f} ms, longest work {gaps.worst_work * 1000:.0f} ms, {gaps.memory:.0f} MB together ({app.preview.picture.kind}, "
+        print(f"{size:8d} lines: opened in {opened:.2f} s, longest silence {gaps.worst * 1000:.0f} ms, longest work "
+              f"{gaps.worst_work * 1000:.0f} ms, {gaps.memory:.0f} MB together ({app.preview.picture.kind}, "
               f"{app.preview.program.n_moves} moves)", flush=True)
         os.remove(path)
     app.close()
@@ -84,11 +87,15 @@ def main(sizes):
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / "mill"
         shutil.copytree(top / "configs/sim/mill", folder)
-        ini = (folder / "mill.ini").read_text().replace("DISPLAY = axis", "DISPLAY = ./display").replace("HALUI = halui", "")
+        ini = (folder / "mill.ini").read_text().replace("DISPLAY = axis",
+                                                        "DISPLAY = ./display").replace("HALUI = halui", "")
         (folder / "mill.ini").write_text(ini)
-        (folder / "display").write_text(f"#!/bin/sh\nexec /usr/bin/python3 {Path(__file__).resolve()} measure {folder}/mill.ini {' '.join(map(str, sizes))} > out 2>&1\n")
+        (folder / "display").write_text(f"#!/bin/sh\nexec /usr/bin/python3 {Path(__file__).resolve()} measure "
+                                        f"{folder}/mill.ini {' '.join(map(str, sizes))} > out 2>&1\n")
         (folder / "display").chmod(0o755)
-        done = subprocess.run([top / "tests/lib/with-display", "1024x768", "linuxcnc", "-r", "mill.ini"], cwd=folder, env=dict(os.environ, HOME=scratch), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run([top / "tests/lib/with-display", "1024x768", "linuxcnc", "-r", "mill.ini"], cwd=folder,
+                              env=dict(os.environ, HOME=scratch), stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
         print((folder / "out").read_text() if (folder / "out").exists() else done.stdout, end="")
         return done.returncode
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """clients_bench.py: how fast clients get through to the controller, in real time.
 
-Prints the speed of an NML queue, starts the simulated mill and prints the time from the launcher's start to the screen's, from a
-Python command to its effect in the status (median, 99 %), and status polls a second with 1, 10 and
+Prints the speed of an NML queue, starts the simulated mill and prints the time from the launcher's start to the
+screen's, from a Python command to its effect in the status (median, 99 %), and status polls a second with 1, 10 and
 50 clients.
 """
 import os
@@ -73,7 +73,8 @@ def measure():
     command.state(linuxcnc.STATE_ESTOP_RESET)
     command.state(linuxcnc.STATE_ON)
     for what, times in zip(("call returns", "status shows it"), latency()):
-        print(f"command.feedrate, {what}: median {times[len(times) // 2] * 1e3:.2f} ms, 99 % {times[len(times) * 99 // 100] * 1e3:.2f} ms")
+        print(f"command.feedrate, {what}: median {times[len(times) // 2] * 1e3:.2f} ms, 99 % "
+              f"{times[len(times) * 99 // 100] * 1e3:.2f} ms")
     for n in (1, 10, 50):
         total, fresh = polls(n)
         print(f"{n:2d} clients: {total:9.0f} polls/s together, each sees {fresh:.0f} new ones/s")
@@ -87,7 +88,8 @@ def queue_speed(messages=16000):
     """Messages a second through one queue, from eight clients at once."""
     env = dict(os.environ, KERF_INSTANCE=f"{os.environ.get('KERF_INSTANCE', '')[:8]}b{os.getpid() % 1000}")
     begin = time.monotonic()
-    subprocess.run([top / "objects/test/nml-test", "many-clients-lose-nothing"], env=env, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([top / "objects/test/nml-test", "many-clients-lose-nothing"], env=env, check=True,
+                   stdout=subprocess.DEVNULL)
     print(f"NML queue, 8 writers: {messages / (time.monotonic() - begin):.0f} messages/s")
 
 
@@ -96,12 +98,15 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / "mill"
         shutil.copytree(top / "configs/sim/mill", folder)
-        ini = (folder / "mill.ini").read_text().replace("DISPLAY = axis", "DISPLAY = ./display").replace("HALUI = halui", "")
+        ini = (folder / "mill.ini").read_text().replace("DISPLAY = axis",
+                                                        "DISPLAY = ./display").replace("HALUI = halui", "")
         (folder / "mill.ini").write_text(ini)
-        (folder / "display").write_text(f"#!/bin/sh\nexec /usr/bin/python3 {Path(__file__).resolve()} measure > out 2>&1\n")
+        (folder / "display").write_text(f"#!/bin/sh\nexec /usr/bin/python3 {Path(__file__).resolve()} "
+                                        "measure > out 2>&1\n")
         (folder / "display").chmod(0o755)
         env = dict(os.environ, BENCH_BEGIN=str(time.time()), HOME=scratch)
-        done = subprocess.run(["linuxcnc", "-r", "mill.ini"], cwd=folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run(["linuxcnc", "-r", "mill.ini"], cwd=folder, env=env, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
         print((folder / "out").read_text() if (folder / "out").exists() else done.stdout, end="")
         return done.returncode
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """preview_bench.py: what the preview costs. No machine and no display.
 
-Programs of 10,000, 100,000 and 1,000,000 lines (a zigzag surface): seconds of the processor to read one and to prepare its
-drawing, memory that it takes, and frames a second of a moving view (exact to 0.7 pixels, into memory at 1024x768; with OpenGL
-the card does this part). Each figure in a process of its own; the median of three.
+Programs of 10,000, 100,000 and 1,000,000 lines (a zigzag surface): seconds of the processor to read one and to prepare
+its drawing, memory that it takes, and frames a second of a moving view (exact to 0.7 pixels, into memory at 1024x768;
+with OpenGL the card does this part). Each figure in a process of its own; the median of three.
 """
 import math
 import resource
@@ -25,7 +25,8 @@ def write(path, lines):
         f.write("G21 G90 F3000\nG0 X0 Y0 Z0\n")
         for i in range(lines - 3):
             row, column = divmod(i, 500)
-            f.write(f"G1 X{0.4 * (column if row % 2 == 0 else 499 - column):.3f} Y{row * 0.1:.3f} Z{math.sin(i / 60):.3f}\n")
+            f.write(f"G1 X{0.4 * (column if row % 2 == 0 else 499 - column):.3f} Y{row * 0.1:.3f} "
+                    f"Z{math.sin(i / 60):.3f}\n")
         f.write("M2\n")
 
 
@@ -56,7 +57,8 @@ def measure(path):
         matrix = camera.matrix(WIDTH, HEIGHT)
         raster.clear((0, 0, 0, 255))
         raster.draw_drawing(drawing, palette, matrix)
-    print(read, prepared, mb, FRAMES / (time.process_time() - begin), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    print(read, prepared, mb, FRAMES / (time.process_time() - begin),
+          resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
 def main():
@@ -69,7 +71,8 @@ def main():
                 done = subprocess.run([sys.executable, __file__, path], check=True, stdout=subprocess.PIPE, text=True)
                 rows.append([float(v) for v in done.stdout.split()])
             read, prepared, mb, frames, most = (statistics.median(column) for column in zip(*rows))
-            print(f"{size:8d} lines: read {read:.2f} s, prepared {prepared:.2f} s, {mb:.0f} MB (at most {most:.0f} MB in the process), {frames:.0f} frames/s in memory")
+            print(f"{size:8d} lines: read {read:.2f} s, prepared {prepared:.2f} s, {mb:.0f} MB (at most {most:.0f} MB "
+                  f"in the process), {frames:.0f} frames/s in memory")
 
 
 if __name__ == "__main__":

@@ -131,7 +131,8 @@ class Soak:
         life = self.scratch / f"{name}.life"
         env = self.environment(name, session, SOAK_LIFE=str(life), SOAK_HAND=hand)
         env["PYTHONPATH"] = f"{HERE.parent / 'fast_tk'}:{env.get('PYTHONPATH', '')}"
-        process = self.start(name, ["nice", "-n", "10", *words], env, cwd)      # they never wait: the machine goes first
+        # they never wait: the machine goes first
+        process = self.start(name, ["nice", "-n", "10", *words], env, cwd)
         self.tools.append(Tool(name, process, lambda: float(life.read_text().split()[1]),
                                lambda: int(life.read_text().split()[0])))
 

@@ -14,6 +14,7 @@ set_rapidrate(50)
 vars.touch_off_system.set("P2  G55")
 vars.jogincrement.set(inifile.find("DISPLAY", "INCREMENTS").split()[1])
 root_window.tk.eval("set_grid_size 0.5")
-live_plotter.logger.set_colors((255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255), (9, 9, 9, 9), (1, 2, 3, 4), (5, 6, 7, 8))
+live_plotter.logger.set_colors((255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255), (9, 9, 9, 9),
+                               (1, 2, 3, 4), (5, 6, 7, 8))
 ap.putpref("own_setting", 3, int)
 own = ap.getpref("own_setting", 0, int)

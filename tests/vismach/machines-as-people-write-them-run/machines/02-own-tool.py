@@ -30,5 +30,6 @@ tool = Collection([HalTranslate([tooltip], c, "tool-length", 0, 0, -1), HalToolC
 head = Collection([tool, Color((0.3, 0.3, 0.7, 1), [CylinderZ(0, 8, 25, 12)])])
 head = HalTranslate([head], c, "z", 0, 0, 1)
 work = Capture()
-table = HalTranslate([HalTranslate([Collection([work, Box(-40, -40, -65, 40, 40, -60)])], c, "x", -1, 0, 0)], c, "y", 0, -1, 0)
+table = HalTranslate([HalTranslate([Collection([work, Box(-40, -40, -65, 40, 40, -60)])], c, "x", -1, 0, 0)], c, "y",
+                     0, -1, 0)
 main(Collection([head, table]), tooltip, work, 200)

@@ -18,5 +18,6 @@ hud.set_hud_text_rgb(1, 1, 1)
 work, tooltip = Capture(), Capture()
 jaw = HalShow([Color([1, 0, 0, 1], [BoxCenteredXY(10, 10, 20)])], c, True, "clamped", 1, 0)
 tools = Collection([HalShow([CylinderZ(0, r, 20, r)], c, r, "tool") for r in (1, 2, 3)])
-model = Collection([work, HalTranslate([Collection([tooltip, tools])], c, "x", 1, 0, 0), jaw, Scale([Sphere(0, 0, 0, 5)], 1, 1, 2)])
+model = Collection([work, HalTranslate([Collection([tooltip, tools])], c, "x", 1, 0, 0), jaw,
+                    Scale([Sphere(0, 0, 0, 5)], 1, 1, 2)])
 main(model, tooltip, work, 100, hud=hud)

@@ -11,7 +11,8 @@ corners = [(0, 0, 0), (20, 0, 0), (0, 20, 0), (0, 0, 20)]
 faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 lines = ["solid part"]
 for f in faces:
-    lines += [" facet normal 0 0 0", "  outer loop"] + ["   vertex %f %f %f" % corners[i] for i in f] + ["  endloop", " endfacet"]
+    lines += ([" facet normal 0 0 0", "  outer loop"] + ["   vertex %f %f %f" % corners[i] for i in f]
+              + ["  endloop", " endfacet"])
 lines.append("endsolid part")
 with open("part.stl", "w") as f:
     f.write("\n".join(lines) + "\n")
@@ -20,5 +21,6 @@ work, tooltip = Capture(), Capture()
 stl = AsciiSTL(filename="part.stl")
 text = AsciiSTL(data="\n".join(lines))
 mesh = AsciiOBJ(data="\n".join(obj))
-model = Collection([work, Color([.6, .6, .6, 1], [stl]), Translate([mesh], 40, 0, 0), HalTranslate([Translate([Collection([tooltip, text])], 0, 0, 40)], c, "z", 0, 0, 1)])
+model = Collection([work, Color([.6, .6, .6, 1], [stl]), Translate([mesh], 40, 0, 0),
+                    HalTranslate([Translate([Collection([tooltip, text])], 0, 0, 40)], c, "z", 0, 0, 1)])
 main(model, tooltip, work, 120)

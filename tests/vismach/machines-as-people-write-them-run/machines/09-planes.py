@@ -16,4 +16,5 @@ axes = HalCoordsFromNormalAndDirection(c, "ox", "oy", "oz", "xx", "xy", "xz", "z
 line = HalLine(c, "ox", "oy", "oz", "ax", "ay", "az", 10)
 euler = HalRotateEuler([BoxCentered(10, 20, 30)], c, "ax", "ay", "az", 313)
 moved = HalVectorTranslate([Collection([tooltip, Sphere(0, 0, 0, 3)])], c, "ax", "ay", 0)
-main(Collection([work, Color([0, .5, 1, .3], [plane]), grid, axes, line, euler, moved, HalGrid(c, 100), HalGridFromNormal(c, "ox", "oy", "oz", "zx", "zy", "zz", 60)]), tooltip, work, 200)
+main(Collection([work, Color([0, .5, 1, .3], [plane]), grid, axes, line, euler, moved, HalGrid(c, 100),
+                 HalGridFromNormal(c, "ox", "oy", "oz", "zx", "zy", "zz", 60)]), tooltip, work, 200)

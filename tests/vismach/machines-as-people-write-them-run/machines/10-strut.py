@@ -11,7 +11,10 @@ c.ready()
 tooltip, work = Capture(), Capture()
 feet, heads = [Capture() for n in range(3)], [Capture() for n in range(3)]
 struts = [Track([CylinderZ(0, 3, 100, 3)], feet[n], heads[n], work) for n in range(3)]
-base = Collection([work] + [Rotate([Translate([feet[n], Sphere(0, 0, 0, 4)], 60, 0, 0)], 120 * n, 0, 0, 1) for n in range(3)])
-platform = Collection([tooltip, CylinderZ(0, 30, 5, 30)] + [Rotate([Translate([heads[n]], 25, 0, 0)], 120 * n, 0, 0, 1) for n in range(3)])
-model = Collection([base, HalTranslate([platform], c, "height", 0, 0, 1), HalScale([BoxCentered(5, 5, 5)], c, 1, 1, 1, "swell")] + struts)
+base = Collection([work]
+                  + [Rotate([Translate([feet[n], Sphere(0, 0, 0, 4)], 60, 0, 0)], 120 * n, 0, 0, 1) for n in range(3)])
+platform = Collection([tooltip, CylinderZ(0, 30, 5, 30)]
+                      + [Rotate([Translate([heads[n]], 25, 0, 0)], 120 * n, 0, 0, 1) for n in range(3)])
+model = Collection([base, HalTranslate([platform], c, "height", 0, 0, 1),
+                    HalScale([BoxCentered(5, 5, 5)], c, 1, 1, 1, "swell")] + struts)
 main(model, tooltip, work, 300)
