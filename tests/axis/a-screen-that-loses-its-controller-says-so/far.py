@@ -60,6 +60,8 @@ until(lambda: not speed(), "its end", 20)
 until(lambda: told("no answer of the server"), "the lost connection is told")
 subprocess.run(["xdotool", "keyup", "Right"], check=True)
 time.sleep(1)
+shown = os.stat("../state").st_ino
+until(lambda: os.stat("../state").st_ino != shown, "the screen goes on", 60)
 print("server gone: told, stands:", not speed(), "the screen is there:", screen.poll() is None)
 screen.terminate()
 screen.wait()

@@ -660,6 +660,7 @@ public:
         if (!channel->valid()) raise_error("Error buffer invalid");
         NMLTYPE type = channel->read();
         if (type == 0) return py::none();
+        if (type < 0) raise_error("Error buffer invalid"); // the server is gone
         py::object text;
         switch (type) {
         case NML_ERROR_TYPE_: text = to_python(channel->get<::NML_ERROR>()->error); break;
