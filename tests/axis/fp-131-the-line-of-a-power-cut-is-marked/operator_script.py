@@ -8,7 +8,7 @@ import operator_lib as lib
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app = op.app
-    print("marked:", app.vars.highlight_line.get(), [m for m in op.messages() if "marked" in m])
+    print("marked:", app.vars.highlight_line.get(), [m for m in op.messages() if "which is marked" in m])
     op.power_on()
     op.home()
     op.key("F3")
