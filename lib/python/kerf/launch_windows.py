@@ -17,6 +17,7 @@ from .language import _, N_
 
 REPORT = Path("/tmp/linuxcnc.report")
 MOST_OF_SCREEN = 0.8        # for the picture of the start
+SHARP = 1.2                 # scale up to which it is shown pixel by pixel
 
 
 def fitting(root, picture):
@@ -24,7 +25,7 @@ def fitting(root, picture):
     found = tk.PhotoImage(file=picture)
     size, screen = (found.width(), found.height()), (root.winfo_screenwidth(), root.winfo_screenheight())
     factor = min(tkstyle.screen_scale(root), *(MOST_OF_SCREEN * most / side for most, side in zip(screen, size)))
-    if factor == 1:
+    if 1 <= factor < SHARP:
         return found
     from PIL import Image
     with Image.open(picture) as image:

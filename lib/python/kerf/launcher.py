@@ -246,7 +246,7 @@ class Session:
         self.watched = {}        # pid -> name: the session ends when one of these dies,
         self.dispensable = set()  # or the operator is told: server of remote clients, components of HAL
         self.display = None
-        self.restarts = Restarts(os.path.join(tempfile.gettempdir(), f"linuxcnc.screen.{self.id}"))
+        self.restarts = Restarts(f"/tmp/linuxcnc.screen.{self.id}")
         self.task_died = False   # without having put anything in order
         self.splash = None
         self.hal_failed = False  # some HAL file or command, with -k

@@ -190,7 +190,7 @@ machine("servos", "HALFILE = servos.hal\n#INCLUDE more.inc\n",
                    for n, a in enumerate("xyz")), "part.ngc": MOVE})
 machine("card", "HALFILE = card.hal",
         files={"card.hal": CORE.format(base="")
-               + "loadrt hostmot2\nloadrt hm2_eth board_ip=\"192.168.1.121\" config=\"num_encoders=1 num_stepgens=4\"\n", "part.ngc": MOVE})
+               + "loadrt hal_motenc\n", "part.ngc": MOVE})
 machine("panel", "HALFILE = panel.hal", files={
     "panel.hal": hand(3, "loadusr -W ./buttons.py --count 3\nloadusr -Wn lamp python3 lamp.py\nnet b0 buttons.out-0\n"
                          "net lamp-on lamp.on\n"),

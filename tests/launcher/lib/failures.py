@@ -100,7 +100,7 @@ case("two passes and a missing file", (r"\[HAL\]", "[HAL]\nTWOPASS = on\nHALFILE
 case("two passes and a pin that is not there", (r"\[HAL\]", "[HAL]\nTWOPASS = on"),
      (r"(HALFILE = spindle.hal)", r"\1\nHALFILE = more.hal"),
      prepare=put("more.hal", "# one\nnet x joint.7.homed\n"))
-case("a card that is not there", (HAL, "loadrt hostmot2\nloadrt hm2_eth board_ip=192.168.1.121\n"), file="spindle.hal")
+case("a card that is not there", (HAL, "loadrt hal_motenc\n"), file="spindle.hal")
 # --- files of the interpreter and of task
 GROUP = "files"
 case("no such tool table", (r"TOOL_TABLE = .*", "TOOL_TABLE = none.tbl"))
