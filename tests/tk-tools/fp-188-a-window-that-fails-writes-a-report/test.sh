@@ -21,7 +21,7 @@ hand.click(button)
 print("goes on:", bool(root.winfo_exists()))
 PY
 grep -c "^KeyError: 'missing'" told
-report=$(ls .halmeter_reports/report-* | tail -1)
+report=$(ls -t .halmeter_reports/report-* | head -1)
 grep -c "$PWD/$report" told | sed 's/^[12]$/told/'
 sed "s/^halmeter .*/halmeter VERSION/; s/^20..-.*/TIME/; s|$PWD/||; s/^..:..:......./TIME/; s/$(sha256sum < machine.ini | cut -d' ' -f1)/HASH/" "$report" | uniq -c | sed 's/^ *//' | grep -v "File\|\^"
 rm -rf .halmeter_reports machine.ini told

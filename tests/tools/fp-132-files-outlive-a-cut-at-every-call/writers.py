@@ -3,7 +3,6 @@
 # (run.py), the rest is named here.
 import os
 import re
-import subprocess
 from pathlib import Path
 
 OPENS = re.compile(r"""\bopen\([^()\n]*(\([^()\n]*\)[^()\n]*)*,\s*(mode=)?["'](w|a|x)[bt+]?["']|\.write_(text|bytes)\(|\bfopen\([^;\n]*"(w|a)"""
@@ -32,14 +31,12 @@ KNOWN = {
 }
 known = {name for names in KNOWN.values() for name in names.split()}
 top = Path(os.environ["EMC2_HOME"])
-names = subprocess.run(["git", "-C", top, "ls-files", "src", "lib", "scripts", "tcl", "configs"],
-                       stdout=subprocess.PIPE, text=True, check=False).stdout.split("\n")
 found = set()
-for name in filter(None, names):
-    path = top / name
-    if (TESTS.search(name) or path.suffix in (".md", ".po", ".ngc", ".png", ".mk") or path.is_symlink()
+for path in (file for folder in ("src", "lib", "scripts", "tcl", "configs") for file in (top / folder).rglob("*")):
+    name = str(path.relative_to(top))
+    if (path.suffix in (".so", ".o", ".a", ".pyc") or TESTS.search(name) or path.suffix in (".md", ".po", ".ngc", ".png", ".mk") or path.is_symlink()
             or not path.is_file()):
         continue
     if OPENS.search(path.read_text(errors="replace")):
         found.add(name)
-print("not known:", sorted(found - known) if names != [""] else [])
+print("not known:", sorted(found - known))

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """halconfig: HAL as a tree, changed by commands and saved as a file. halshow is the newer program."""
 
-import os
 import tkinter as tk
-from pathlib import Path
 from tkinter import messagebox, ttk
 
-from .. import files, tkstyle
+from .. import tkstyle
 from ..language import _, N_
 from . import halshow
 
@@ -62,13 +60,7 @@ class Window(halshow.Window):
         """True when a file has been written."""
         path = self.ask_file.asksaveasfilename(parent=self.root, title=_("Save"), filetypes=FILE_TYPES,
                                                defaultextension=".hal")
-        if not path or self.hal("save", KINDS[kind], f"{path}.new") is None:
-            return False
-        try:
-            files.replace(path, Path(f"{path}.new").read_bytes())
-            os.unlink(f"{path}.new")
-        except OSError as error:
-            self.say(f"{path}: {error.strerror}", True)
+        if not path or self.hal("save", KINDS[kind], path) is None:
             return False
         self.say(_("Saved %s") % path)
         return True

@@ -442,10 +442,12 @@ class Window:
 
     def saved(self, words):
         """What `save` without a file writes; None when it failed."""
-        with tempfile.NamedTemporaryFile("r", suffix=".hal") as file:
-            if self.hal("save", *(words[1:] or ["all"]), file.name) is None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "saved.hal")
+            if self.hal("save", *(words[1:] or ["all"]), path) is None:
                 return None
-            return file.read()
+            with open(path, encoding="utf-8", errors="replace") as file:
+                return file.read()
 
     def recall(self, step):
         self.command.delete(0, "end")
