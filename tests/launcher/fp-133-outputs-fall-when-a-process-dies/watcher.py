@@ -4,6 +4,7 @@ import os
 import resource
 import signal
 import sys
+import time
 from pathlib import Path
 
 import hal
@@ -62,10 +63,10 @@ signal.signal(signal.SIGTERM, signal.SIG_IGN)    # a child looks on, to see what
 os.setsid()
 clock.join("onlooker", 900)
 left, at, before = high(), 0.0, 1.0
-still, end = 0, clock.now() + 60
+still, end = 0, time.monotonic() + 60      # what stops it lives in wall time
 # every cycle of the realtime part, to its last; nobody ends it when the launcher is gone too
 try:
-    while victim != "launcher-and-task" or (still < 500 and clock.now() < end):
+    while victim != "launcher-and-task" or (still < 500 and time.monotonic() < end):
         still = still + 1 if before == at and not left else 0
         left, before, at = high(), at, hal.get_value("joint.0.motor-pos-cmd")
         clock.sleep(0.001)
