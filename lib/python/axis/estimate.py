@@ -9,6 +9,7 @@ import bisect
 import os
 import subprocess
 import threading
+from array import array
 from dataclasses import dataclass
 
 SETTLE_S = 0.5           # overrides must rest so long before the times are found out anew
@@ -43,13 +44,14 @@ def between(xs, ys, x):
 
 
 class Times:
-    """When moves begin. numbers, lines, seconds: parallel lists in order; total: None while not known."""
+    """When moves begin. numbers, lines, seconds: parallel and in order; total: None while not known."""
 
     def __init__(self, rates):
         self.rates = rates
-        self.numbers, self.lines, self.seconds = [], [], []
+        self.numbers, self.lines, self.seconds = array("q"), array("q"), array("d")
         self.total = None
         self.complete = False        # total is the program's end
+        self.endless = False         # not found in kerf-time's time, at no overrides
         self.reason = ""             # why it is not
         self.waits = None            # tool changes, spindle starts, user codes, waits for inputs, stops
 
@@ -62,8 +64,8 @@ class Times:
                 self.seconds.append(float(words[2]))
             elif words and words[0] == "waits":
                 self.waits = tuple(int(n) for n in text.split()[1:])
-            elif words and words[0] in ("end", "stopped"):
-                self.complete = words[0] == "end"
+            elif words and words[0] in ("end", "stopped", "endless"):
+                self.complete, self.endless = words[0] == "end", words[0] == "endless"
                 self.total, self.reason = float(words[1]), words[2].strip() if len(words) > 2 else ""
 
     def number_at(self, seconds):
@@ -175,7 +177,9 @@ class Estimate:
         if rates != self.wanted:
             self.wanted, self.wanted_since = rates, now
         known = self.reader.fresh.rates if self.reader else self.times.rates if self.times else None
-        if known is not None and known != rates and now - self.wanted_since > SETTLE_S and rates.feed > 0:
+        endless = self.reader is None and self.times is not None and self.times.endless
+        if (known is not None and known != rates and now - self.wanted_since > SETTLE_S and rates.feed > 0
+                and not endless):
             self.find_out(rates)
         passed, self.last = (now - self.last if self.last is not None else 0.0), now
         if not running or self.times is None:

@@ -4,12 +4,14 @@
 // that runs now, from where it stands. Nothing moves, no file is written.
 //
 // In:     the machine's status and tools; the INI file's limits; a program
-// Out:    stdout: `LINE NUMBER SECONDS` when a move begins (at most every STEP_S seconds of the machine), last
-//         `end SECONDS` or `stopped SECONDS REASON`. Exit status 0; 1 when nothing is known
+// Out:    stdout: `LINE NUMBER SECONDS` when a move begins (at most every STEP_S seconds of the machine, and every
+//         SHARE of the time so far), last `end SECONDS`, `stopped SECONDS REASON` or `endless SECONDS REASON`.
+//         Exit status 0; 1 when nothing is known
 // Thread: [task]; a process of its own, so that a program without an end can be stopped
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <climits>
 #include <csignal>
 #include <cstdio>
@@ -27,6 +29,7 @@
 namespace {
 
 constexpr double STEP_S = 0.2;
+constexpr double SHARE = 1e-4;      // of the time so far: an endless program has few lines, too
 constexpr int LINES = 100;          // read at a time
 
 const char USAGE[] =
@@ -142,15 +145,19 @@ int run(const Options &o, const linuxcnc::IniFile &ini, const EMC_STAT &now) {
     }
     double shown = -STEP_S;
     time.on_move = [&shown](int line, long number, double seconds) {
-        if (seconds - shown < STEP_S) return;
+        if (seconds - shown < std::max(STEP_S, SHARE * seconds)) return;
         shown = seconds;
         printf("%d %ld %.3f\n", line, number, seconds);
     };
     DryRun::Result result = DryRun::Result::more;
+    bool endless = false;
     while (result == DryRun::Result::more && why.empty()) {
         result = dry.step(LINES);
         why = time.failed();
-        if (why.empty() && cpu_seconds() > o.cpu_s) why = "it takes too long to find out";
+        if (why.empty() && cpu_seconds() > o.cpu_s) {
+            why = "it takes too long to find out";
+            endless = true;
+        }
     }
     time.drain();
     if (why.empty()) why = time.failed();
@@ -158,7 +165,7 @@ int run(const Options &o, const linuxcnc::IniFile &ini, const EMC_STAT &now) {
     const Waits &w = time.waits();
     printf("waits %d %d %d %d %d\n", w.tool_changes, w.spindle_starts, w.user_codes, w.inputs, w.stops);
     if (why.empty()) printf("end %.3f\n", time.seconds());
-    else printf("stopped %.3f %s\n", time.seconds(), why.c_str());
+    else printf("%s %.3f %s\n", endless ? "endless" : "stopped", time.seconds(), why.c_str());
     return 0;
 }
 
