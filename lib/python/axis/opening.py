@@ -159,7 +159,7 @@ class OpeningPart:
             self.notifications.add("info",
                                    self.translate("The last run was cut off at line %d, which is marked. Home the "
                                                   "machine, then start at the selected line: "
-                                                          "each item is shown before anything moves.") % s.cut_off_line)
+                                                "each item is shown before anything moves.") % s.cut_off_line)
         self.loading = False
         self.keep_record(True)
 
