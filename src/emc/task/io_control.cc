@@ -196,6 +196,14 @@ int IoControl::load() {
     return 0;
 }
 
+int IoControl::changing_to() const {
+    const int idx = stat_.io.tool.pocketPrepped;
+    if (!pins_ || !*pins_->tool_change || idx < 0) return -1;
+    if (idx == 0 && !random_) return 0;
+    CANON_TOOL_TABLE rec = tooldata_entry_init();
+    return tooldata_get(&rec, idx) == IDX_OK && rec.toolno > 0 ? rec.toolno : 0;
+}
+
 int IoControl::unload() {
     stat_.io.tool.toolInSpindle = 0;
     *pins_->tool_number = 0;

@@ -20,6 +20,7 @@
 class IoControl {
 public:
     const std::string &table() const { return table_; } // the tool table's file, empty: none
+    int changing_to() const; // the tool that the changer puts into the spindle now, 0 none; -1: it does not work
     explicit IoControl(EMC_STAT &stat) : stat_(stat) {}
     ~IoControl();
 

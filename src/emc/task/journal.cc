@@ -76,6 +76,7 @@ JournalRecord journal_record(const EMC_STAT &s, const JournalPlace &place) {
     snprintf(line, sizeof line, "rotation %.6f\n", t.rotation_xy);
     text += line;
     text += "tool T" + std::to_string(s.io.tool.toolInSpindle) + words(t.toolOffset, mask) + "\n";
+    if (place.changing_to >= 0) text += "change T" + std::to_string(place.changing_to) + "\n";
     text += "codes" + codes(t.activeGCodes, EMC_ACTIVE_G_CODES, 'G') + codes(t.activeMCodes, EMC_ACTIVE_M_CODES, 'M') +
             "\n";
     snprintf(line, sizeof line, "settings F%.6f S%.6f\n", t.activeSettings[1], t.activeSettings[2]);

@@ -34,10 +34,12 @@ private:
     std::string text_;
 };
 
-// What is running: the program, the SHA-256 of its text, the line of the main program.
+// What is running: the program, the SHA-256 of its text, the line of the main program, the tool that is being changed
+// in (0: none, the spindle is emptied; -1: no change is going on).
 struct JournalPlace {
     std::string program, hash;
     int line = 0;
+    int changing_to = -1;
 };
 JournalRecord journal_record(const EMC_STAT &stat, const JournalPlace &place);
 

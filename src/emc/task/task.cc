@@ -230,6 +230,9 @@ void Task::open_journal() {
                       "). Home the machine, open the program and start at that line; all of it is in " + file)
                          .substr(0, LINELEN - 1)
                          .c_str());
+    const std::string change = cut_.get("change");
+    if (change != "?")
+        operator_display(("It was changing to " + change + ": look which tool is in the spindle").c_str());
     rcs_print("%s", cut_.text().c_str());
 }
 
@@ -306,7 +309,7 @@ void Task::cycle() {
         stat_.cut_off_line = 0;
         stat_.cut_off_file[0] = 0;
     }
-    journal_.update(stat_, {program_, stat_.program_hash, main_line_}, runs);
+    journal_.update(stat_, {program_, stat_.program_hash, main_line_, io_.changing_to()}, runs);
     send_messages();
     publish();
 }

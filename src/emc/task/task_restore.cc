@@ -188,6 +188,9 @@ std::string Task::cut_text() const {
     dry_->interp().active_m_codes(then->task.activeMCodes);
     dry_->interp().active_settings(then->task.activeSettings);
     const std::string other = cut_.differences(journal_record(*then, {}));
+    const std::string change = cut_.get("change");
+    if (change != "?")
+        text += "- UNSURE: it was changing to " + change + ": look which tool is in the spindle\n";
     return text + (other.empty() ? "- offsets, rotation, tool, tool length and modes are the same\n" : other) +
            "- the machine stood at " + cut_.get("position") + "\n";
 }

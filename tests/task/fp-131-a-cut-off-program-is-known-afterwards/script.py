@@ -46,6 +46,29 @@ def standing(words):
         time.sleep(0.05)
 
 
+def journal_now(*words):
+    """Those lines of a journal of what is now: the second one that is written from now on."""
+    written = set()
+    for _ in range(400):
+        if journal.exists():
+            written.add(journal.stat().st_mtime_ns)
+        if len(written) > 2:
+            return [line for line in journal.read_text().splitlines() if line.split()[0] in words]
+        time.sleep(0.05)         # of wall time, as it is written
+        sleep(0.001)
+    return []
+
+
+def told_at_start(count=1):
+    told = []
+    clock.wait_until(lambda: told.extend(messages()) or len(told) >= count, 5)
+    return told
+
+
+def bit(pin):
+    return halcmd("getp", pin) == "TRUE"
+
+
 if part == "cut":
     print("nothing was cut off before:", messages())
     on()
@@ -71,9 +94,32 @@ elif part == "power":           # all at once
     print("   ", *[l for l in told.splitlines() if l.startswith(("line", "called"))], sep="\n    ")
     print("    hashes:", [len(l.split()[1]) for l in told.splitlines() if l.startswith(("hash", "table", "ini"))])
     session.kill_all()
+elif part == "change":          # while the changer works
+    on()
+    program("G21 G90\nT2 M6\nG43\nG0 X5\nT3 M6\nG43\nG1 X10 F600\nM2\n", "changes.ngc")
+    halcmd("unlinkp", "iocontrol.0.tool-changed")
+    c.auto(AUTO_RUN, 0)
+    for changed in (1, 0):
+        need(lambda s: bit("iocontrol.0.tool-change"), "the change")
+        if changed:
+            print("    in the first change:", *journal_now("tool", "change", "line"))
+            halcmd("setp", "iocontrol.0.tool-changed", "1")
+            need(lambda s: not bit("iocontrol.0.tool-change"), "the end of the change")
+            halcmd("setp", "iocontrol.0.tool-changed", "0")
+    print("    in the second change:", *journal_now("tool", "change", "line"))
+    session.kill_all()
+elif part == "unsure":
+    print(told_at_start(2)[1:])
+    on()
+    mode(MODE_AUTO)
+    c.program_open(s.cut_off_file)
+    c.wait_complete()
+    c.restore(s.cut_off_line)
+    print("restore:", until(lambda s: s.restore_line == s.cut_off_line, 10), s.restore_line)
+    print(re.sub(r"\d+-\d+-\d+ [\d:]+", "TIME", s.restore_text))
+    c.abort()
 elif part == "again":
-    told = []
-    clock.wait_until(lambda: told.extend(messages()) or told, 5)
+    told = told_at_start()
     print(len(told), told[0].split(" (", 1)[0] if told else None)
     on()
     mode(MODE_AUTO)

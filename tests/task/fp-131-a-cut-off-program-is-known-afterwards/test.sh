@@ -5,7 +5,7 @@ export KERF_CLOCK=virtual
 out=$(mktemp -d); trap 'rm -rf "$out"' EXIT
 export HOME=$out PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$PWD/../lib:$PWD/../../lib:$PYTHONPATH
 cp -r "$EMC2_HOME/configs/sim/mill" "$out/machine"
-for part in cut again end power changed; do
+for part in cut again end change unsure power changed; do
     if [ $part = changed ]; then
         echo '; a comment' >> "$out/machine/mill.tbl"
         sed -i 's/^T2 .*/T2 P2 D6 Z99/' "$out/machine/mill.tbl"
