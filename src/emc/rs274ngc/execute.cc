@@ -61,6 +61,10 @@ int execute_block(Setup &s)
     Block &b = s.block;
     if (s.logs(2, LOG_LINES)) s.log("%s", s.raw);
     if (b.o_type != O_NONE) return execute_oword(s);
+    s.last_g0 = b.g_modes[GM_MODAL_0];
+    s.last_g92 = b.g_modes[GM_G92];
+    s.last_stop = b.m_modes[MM_STOP];
+    s.last_toolchange = b.m_modes[MM_TOOL];
     if (s.retain_g43 && b.m_modes[MM_TOOL] == 6) b.phases |= phase_bit(PHASE_RETAIN_G43);
     uint32_t todo = b.phases & ~(phase_bit(b.phase + 1) - 1);
     while (todo) {
@@ -75,10 +79,6 @@ int execute_block(Setup &s)
         }
         TRY(run_phase(s, phase));
     }
-    s.last_g0 = b.g_modes[GM_MODAL_0];
-    s.last_g92 = b.g_modes[GM_G92];
-    s.last_stop = b.m_modes[MM_STOP];
-    s.last_toolchange = b.m_modes[MM_TOOL];
     if (__builtin_expect(s.probe_flag || s.input_flag || s.toolchange_flag, 0)) return INTERP_EXECUTE_FINISH;
     return INTERP_OK;
 }

@@ -41,3 +41,20 @@ for teleop in (1, 0):
     c.jog(JOG_STOP, 1 - teleop, 0)
     sleep(1)
     print("over:", poll().state, s.inpos, s.current_vel)
+
+# Codes of a block (G of group 0, M of groups 4 and 6) are those of the block that is made, also while it moves,
+# when it fails and when it ends the program.
+program("G21 G90 G0 X0 F300\nG53 G1 X1\nG1 X2\nG92 X0\nG1 X1\nG92.1\nT1 M6\nG1 X0\nG4 P0.1\nG1 X1\nM2\n")
+seen = []
+c.auto(AUTO_RUN, 0)
+while poll().interp_state != INTERP_IDLE or s.queue:
+    if s.current_vel > 0.5 and s.motion_line:
+        now = s.motion_line, s.gcodes[2], s.gcodes[16], s.mcodes[1], s.mcodes[3]
+        if not seen or seen[-1] != now:
+            seen.append(now)
+    sleep(0.004)
+print(seen)
+print("M2:", poll().gcodes[2], s.mcodes[1])
+for line in "G4 P0", "G1 X1 F0", "G4 P0", "G1 X[1/0]", "T2 M6", "G2 X3 F10", "M6 G2 X4":
+    mdi(line)
+    print(line, poll().gcodes[1:3], s.mcodes[3], messages())
