@@ -634,9 +634,10 @@ void MotionLink::update(std::string *error) {
     t.feed_hold_enabled = enables & FH_ENABLED;
     if (settling_ && s.heartbeat - settle_from_ >= 2)
         settling_ = false; // the second one has seen all that the command changed
-    t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT  ? RCS_ERROR
-               : t.inpos && t.queue == 0 && !settling_ ? RCS_DONE
-                                                       : RCS_EXEC;
+    // A probe move at rest is over in the next cycle, which tells what came of it.
+    t.status = s.motionFlag & EMCMOT_MOTION_ERROR_BIT                ? RCS_ERROR
+               : t.inpos && t.queue == 0 && !s.probing && !settling_ ? RCS_DONE
+                                                                     : RCS_EXEC;
     if (config_changed) {
         t.maxVelocity = config_.limitVel;
         t.cycleTime = config_.trajCycleTime;
