@@ -51,6 +51,7 @@ Options:
 WATCH_MS = 100          # at most between two looks at the processes
 BUSY_MS = 1000          # between two looks whether a program runs, while there is no screen
 READY_WAIT_S = 10.0     # for task to publish the first settings
+TASK_COMPONENT = "inihal"        # of task, in HAL
 CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
 SAFE_STOP_S = 2.0       # for motion to be ended after task has died
 SESSION = "LINUXCNC_SESSION"
@@ -243,6 +244,7 @@ class Session:
         # Our own look-ups (subprocess, shutil.which) use the same path.
         os.environ["PATH"] = self.env["PATH"]
         os.environ["HALLIB_PATH"] = hallib_path
+        self.task_pid = None
         self.watched = {}        # pid -> name: the session ends when one of these dies,
         self.dispensable = set()  # or the operator is told: server of remote clients, components of HAL
         self.display = None
@@ -421,7 +423,7 @@ class Session:
             if self.run(*self.halcmd, "loadrt", *module.split()):
                 raise Failure(f"{self.ini_path}: cannot load realtime module '{module}'")
         self.need_program(self.task, f"Can't execute TASK program {self.task}")
-        if self.run(*self.halcmd, "loadusr", "-Wn", "inihal", self.task, "-ini", self.ini_path):
+        if self.run(*self.halcmd, "loadusr", "-Wn", TASK_COMPONENT, self.task, "-ini", self.ini_path):
             raise Failure(f"TASK program {self.task} did not start: see its messages above")
         if self.halui:
             self.need_program(self.halui.split()[0], f"Can't execute halui program {self.halui}")
@@ -550,7 +552,7 @@ class Session:
             if not any(name.startswith("rtapi_app") and lives(pid) for pid, name in self.watched.items()):
                 raise Failure("rtapi_app, the realtime host, died while the machine was started: the kernel's log "
                               "(dmesg) may name the module")
-            if not any(name == self.task[:15] and lives(pid) for pid, name in self.watched.items()):
+            if not self.task_pid or not lives(self.task_pid):
                 raise Failure(f"TASK program {self.task} ended while the machine was started: see its messages above")
             try:
                 return float(self.output("halcmd", "getp", "ini.traj_max_velocity") or 0) != 0
@@ -564,7 +566,7 @@ class Session:
 
     def watch(self):
         """Remembers the programs that must not end: without most of them the machine cannot go on."""
-        wanted = {self.task[:15], "rtapi_app", "linuxcncsvr"}
+        wanted = {"rtapi_app", "linuxcncsvr"}
         for pid in session_processes(self.id):
             name = comm_of(pid)
             kind = "rtapi_app" if name.startswith("rtapi_app") else name
@@ -577,10 +579,16 @@ class Session:
                     break
         for line in self.output("halcmd", "-s", "show", "comp").splitlines():
             words = line.split()       # number, kind, name, process, state
-            if (len(words) == 5 and words[1] == "User" and words[3].isdigit() and int(words[3]) not in self.watched
-                    and lives(int(words[3]))):
-                self.watched[int(words[3])] = words[2]
-                self.dispensable.add(int(words[3]))
+            if len(words) != 5 or words[1] != "User" or not words[3].isdigit() or not lives(int(words[3])):
+                continue
+            pid, name = int(words[3]), words[2]
+            if name == TASK_COMPONENT:           # [TASK]TASK may be a path, or a script that starts it
+                self.task_pid = pid
+                self.watched[pid] = comm_of(pid)
+                self.dispensable.discard(pid)
+            elif pid not in self.watched:
+                self.watched[pid] = name
+                self.dispensable.add(pid)
 
     def tell_operator(self, text):
         """In the logs and, by task, at every screen. Does not wait."""
@@ -641,7 +649,7 @@ class Session:
             if lives(pid):
                 continue
             if pid not in self.dispensable:
-                self.task_died |= name == self.task[:15]
+                self.task_died |= pid == self.task_pid
                 raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
             lost = "remote clients are cut off" if name == "linuxcncsvr" else "what it did is no longer done"
             self.tell_operator(f"{name} (process {pid}) died: {lost}, the machine goes on")
