@@ -461,7 +461,9 @@ bool Task::all_homed() const {
     return true;
 }
 
-bool Task::idle() const { return list_.empty() && !pending_.message && stat_.task.execState == EMC_TASK_EXEC_DONE; }
+bool Task::orders_left() const { return !list_.empty() || pending_.message; }
+
+bool Task::idle() const { return !orders_left() && stat_.task.execState == EMC_TASK_EXEC_DONE; }
 
 void Task::publish() {
     EMC_TASK_STAT &t = stat_.task;

@@ -145,6 +145,7 @@ private:
     void operator_display(const char *text);
 
     bool all_homed() const;
+    bool orders_left() const; // in the list, or waiting for their turn
     bool idle() const; // nothing in the list, nothing pending, nothing being waited for
     template <class T> const T &as(const NMLmsg &m) const { return static_cast<const T &>(m); }
 

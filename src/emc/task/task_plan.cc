@@ -704,7 +704,7 @@ int Task::plan_execute(const char *text) {
     }
     stop_stepping();
     if (!*text) return 0;
-    const bool waits = !mdi_queue_.empty() || wait_ || mdi_continue_;
+    const bool waits = !mdi_queue_.empty() || wait_ || mdi_continue_ || orders_left();
     if (mdi_queue_max_ == 0 ? waits || t.interpState != EMC_TASK_INTERP_IDLE : mdi_queue_.size() >= mdi_queue_max_) {
         operator_error(mdi_queue_max_ == 0
                            ? "An MDI line is still being executed: the next one was refused ([TASK]MDI_QUEUE = 0)"
@@ -791,6 +791,7 @@ void Task::mdi_cycle() {
     EMC_TASK_STAT &t = stat_.task;
     if (wait_ || mdi_goes_on()) return;
     if (!mdi_queue_.empty()) {
+        if (orders_left()) return;
         const std::string next = mdi_queue_.front().text;
         mdi_queue_.pop_front();
         if (mdi_run(next.c_str()) != 0) command_failed();

@@ -28,7 +28,7 @@ def cancel(serial):
 on()
 serials = fill()
 print("waiting", waiting(),
-      [serial for serial, _ in s.mdi_queue] == [serials[line] for line in ("G0 X20", "G0 Y20", "G0 Z-2")])
+      [serial for serial, _ in s.mdi_queue] == [serials[line] for line in ("M66 P0 L3 Q2", "G0 X20", "G0 Y20", "G0 Z-2")])
 print("cancel", cancel(serials["G0 Y20"]), waiting())
 print("again", cancel(serials["G0 Y20"]), waiting())
 print("running", cancel(serials["G4 P1"]), waiting())

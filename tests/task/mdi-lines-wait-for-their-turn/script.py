@@ -33,6 +33,13 @@ print(mdi("G1 X5"), messages(), poll().state)
 print(mdi("G999"), messages())
 print(mdi(""), messages())
 print(mdi("M2"), messages())
+# A line is read when those before it have been given to the machine: what they order is done before its mistake.
+mode(MODE_MDI)
+for line in ("G0 X0", "G1 X1 F60", "M3 S100", "G1 X2", "M5", "G1 X[1/0]", "G0 X9"):
+    c.mdi(line)
+sleep(0.3)
+show("orders")
+print(c.wait_complete(20), s.spindle[0]["speed"] if poll() else 0, s.position[0] > 1, messages())
 # Not homed, not in MDI mode.
 mode(MODE_MANUAL)
 c.mdi("G0 X1")
