@@ -30,7 +30,7 @@ GROUPS = {
         knob2float updown
         xhc_hb04_util joyhandle hal_input sendkeys hal_bridge panelui""",
     "Safety": "estop_latch safety_latch charge_pump watchdog joint_axis_mapper",
-    "Arithmetic": """abs abs_s32 abs_s64 sum2 mult2 div2 invert scale offset hypot scaled_s32_sums weighted_sum
+    "Arithmetic": """abs abs_s32 abs_s64 constant sum2 mult2 div2 invert scale offset hypot scaled_s32_sums weighted_sum
         blend feedcomp deadzone minmax near comp wcomp led_dim clarke2 clarke3 clarkeinv lincurve modmath
         differential corexy_by_hal supply""",
     "Converting types": "conv_*",
