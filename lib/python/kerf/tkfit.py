@@ -12,7 +12,7 @@ import tkinter as tk
 import tkinter.font
 
 FRAME_PX = 40           # of the screen's height, for the desktop's title and bar; a menu of the window is above that
-STEPS = 8               # at most, for one window
+STEPS = 12              # at most, for one window
 LEAST_STEP, MOST_STEP = 0.75, 0.97
 
 FIELDS = ("TEntry", "TCombobox", "TSpinbox")
@@ -21,7 +21,8 @@ SCROLLED, FEW_LINES = ("Text", "Listbox", "Treeview", "Canvas"), 4
 # Lengths in pixels that widgets were given, by class. Themes and named fonts follow by themselves.
 LENGTHS = {"Canvas": ("width", "height"), "Label": ("wraplength", "padx", "pady"), "TLabel": ("wraplength", "padding"),
            "TFrame": ("padding",), "TLabelframe": ("padding",), "TScale": ("length",),
-           "Scale": ("length", "width", "sliderlength"), "Button": ("padx", "pady")}
+           "Scale": ("length", "width", "sliderlength"),
+           **dict.fromkeys(("Button", "Menubutton", "Checkbutton", "Radiobutton"), ("padx", "pady"))}
 GAPS = ("padx", "pady", "ipadx", "ipady")
 
 
@@ -110,10 +111,11 @@ def fields_anew(widget):
 
 
 class Fit:
-    """restyle() sets fonts and themes by the style, whose scale and touch it changes."""
+    """restyle() sets fonts and themes by the style, whose scale and touch it changes; pads(style): padY of what is
+    pressed and not themed, by class."""
 
-    def __init__(self, root, style, restyle):
-        self.root, self.style, self.restyle = root, style, restyle
+    def __init__(self, root, style, restyle, pads):
+        self.root, self.style, self.restyle, self.pads = root, style, restyle, pads
         self.pending = set()
         root.bind_all("<Map>", self._appears, "+")
         root.bind_all("<Configure>", self._changes, "+")
@@ -158,11 +160,21 @@ class Fit:
             self._lengths(self.root, style.scale / before)
             self._fonts(style.scale / before)
         elif style.touch > 0:
-            style.touch = style.touch - 0.25
+            before, style.touch = self.pads(style), style.touch - 0.25
+            self._pads(self.root, before, self.pads(style))
         else:
             return False
         self.restyle()
         return True
+
+    def _pads(self, widget, before, now):
+        """Of what has them from the style, below this widget."""
+        for child in widget.winfo_children():
+            kind = child.winfo_class()
+            # rounded when the letters became smaller
+            if kind in before and abs(child.winfo_pixels(str(child.cget("pady"))) - before[kind]) <= 1:
+                child.configure(pady=now[kind])
+            self._pads(child, before, now)
 
     def _fonts(self, factor):
         """Those that the program made."""

@@ -147,12 +147,20 @@ def apply(root, dark=None, fits=True, most=MAX_SCALE):
     restyle()
     root.configure(background=style.colours["face"])
     if fits:
-        Fit(root, style, restyle)
+        Fit(root, style, restyle, pressed_pads)
     return style
+
+
+def pressed_pads(style):
+    """padY of what is pressed and is not themed (panels), by class."""
+    flat = style.roomy(1, 6)
+    return {"Button": style.roomy(4, 7), "Menubutton": style.roomy(4, 7), "Checkbutton": flat, "Radiobutton": flat}
 
 
 def _options(root, colours, style):
     """Widgets that are not themed: text, lists, menus, canvases."""
+    for kind, pad in pressed_pads(style).items():
+        root.option_add(f"*{kind}.padY", pad, "startupFile")
     for pattern, value in (("*Font", "TkDefaultFont"), ("*Text.Font", "TkFixedFont"), ("*background", colours["face"]),
                            ("*foreground", colours["ink"]), ("*activeBackground", colours["pressed"]),
                            ("*activeForeground", colours["ink"]), ("*disabledForeground", colours["off"]),
