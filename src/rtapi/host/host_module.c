@@ -99,8 +99,8 @@ static int store(struct module *m, const char *word, char type, void *address, i
     }
 }
 
-static int store_array(struct module *m, const char *word, const char *name, char type,
-                       void *address, int size, char *values)
+static int store_array(struct module *m, const char *word, char type, void *address, int size,
+                       char *values)
 {
     char *value = values;
     for (int i = 0; value; i++) {
@@ -109,7 +109,7 @@ static int store_array(struct module *m, const char *word, const char *name, cha
             *comma = 0;
         }
         if (i >= size) {
-            say("%s: can only take %d arguments\n", name, size);
+            say("%s: can only take %d arguments\n", word, size);
             return -1;
         }
         if (store(m, word, type, address, i, value) < 0) {
@@ -149,7 +149,7 @@ static int set_parameter(struct module *m, char *word)
         } else {
             char type = **(const char **)type_info;
             void *address = *(void **)address_info;
-            result = size_info ? store_array(m, word, name, type, address, *(int *)size_info, values)
+            result = size_info ? store_array(m, word, type, address, *(int *)size_info, values)
                                : store(m, word, type, address, 0, values);
         }
     }
