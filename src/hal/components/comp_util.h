@@ -36,6 +36,10 @@ static inline int comp_instances(const char *tag, int num_chan, char *const name
     return num_chan;
 }
 
+/* What a scale was before it was first looked at: no value is equal to it, so that the first
+ * one is checked, too. */
+#define COMP_SCALE_UNSEEN NAN
+
 /* A scale that can divide: 1.0 in place of one that is nearly zero or no number. */
 static inline double comp_scale(double scale)
 {

@@ -91,6 +91,7 @@ static int export_counter(struct counter *c, int n)
     COMP_TRY(hal_pin_new_si32(comp_id, HAL_OUT, &c->counts, 0, "counter.%d.counts", n));
     COMP_TRY(hal_pin_new_real(comp_id, HAL_OUT, &c->position, 0, "counter.%d.position", n));
     COMP_TRY(hal_pin_new_real(comp_id, HAL_OUT, &c->velocity, 0, "counter.%d.velocity", n));
+    c->seen_scale = COMP_SCALE_UNSEEN;
     COMP_TRY(hal_pin_new_real(comp_id, HAL_IO, &c->position_scale, 1.0, "counter.%d.position-scale", n));
     return 0;
 }

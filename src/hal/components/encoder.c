@@ -273,6 +273,7 @@ static int export_channel(struct channel *c, const char *name)
     COMP_TRY(hal_pin_new_real(comp_id, HAL_OUT, &c->position_latched, 0, "%s.position-latched", name));
     COMP_TRY(hal_pin_new_real(comp_id, HAL_OUT, &c->velocity, 0, "%s.velocity", name));
     COMP_TRY(hal_pin_new_real(comp_id, HAL_OUT, &c->velocity_rpm, 0, "%s.velocity-rpm", name));
+    c->seen_scale = COMP_SCALE_UNSEEN;
     COMP_TRY(hal_pin_new_real(comp_id, HAL_IO, &c->position_scale, 1.0, "%s.position-scale", name));
     COMP_TRY(hal_pin_new_bool(comp_id, HAL_IO, &c->x4_mode, 1, "%s.x4-mode", name));
     COMP_TRY(hal_pin_new_bool(comp_id, HAL_IO, &c->counter_mode, 0, "%s.counter-mode", name));

@@ -130,7 +130,7 @@ static void limit_duty_cycle(struct channel *c, double *min, double *max)
 static enum mode wanted_mode(const struct channel *c, double freq)
 {
     if(!hal_get_bool(c->enable)) return MODE_OFF;
-    if(freq == 0) return MODE_PDM;
+    if(!(freq > 0)) return MODE_PDM;
     return hal_get_bool(c->dither) ? MODE_DITHER : MODE_PURE;
 }
 
@@ -213,6 +213,7 @@ static void update(void *arg, long period)
 
 static int export_channel(struct channel *c, int n)
 {
+    c->seen_scale = COMP_SCALE_UNSEEN;
     COMP_TRY(hal_pin_new_real(comp_id, HAL_IO, &c->scale, 1.0, "pwmgen.%d.scale", n));
     COMP_TRY(hal_pin_new_real(comp_id, HAL_IO, &c->offset, 0, "pwmgen.%d.offset", n));
     COMP_TRY(hal_pin_new_bool(comp_id, HAL_IO, &c->dither, 0, "pwmgen.%d.dither-pwm", n));

@@ -102,6 +102,7 @@ static void update_speed(void *arg, long period)
 static int export_encoder(struct encoder *e, const char *name)
 {
     COMP_TRY(hal_pin_new_ui32(comp_id, HAL_IO, &e->ppr, 100, "%s.ppr", name));
+    e->seen_scale = COMP_SCALE_UNSEEN;
     COMP_TRY(hal_pin_new_real(comp_id, HAL_IO, &e->scale, 1.0, "%s.scale", name));
     COMP_TRY(hal_pin_new_real(comp_id, HAL_IN, &e->speed, 0, "%s.speed", name));
     COMP_TRY(hal_pin_new_bool(comp_id, HAL_OUT, &e->phase_a, 0, "%s.phase-A", name));

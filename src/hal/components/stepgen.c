@@ -212,7 +212,8 @@ static double position_steps(const struct position *p)
     return (double)(p->steps - HALF_STEP) * (1.0 / ONE_STEP);
 }
 
-/* Takes over a changed scale; one that cannot divide becomes 1. */
+/* Takes over a changed scale; one that cannot divide becomes 1. One that is 0 from the start
+ * on stays: such a channel does not move. */
 static double checked_scale(struct channel *c, double *seen)
 {
     double scale = hal_get_real(c->position_scale);
@@ -231,10 +232,10 @@ static void capture_position(void *arg, long period)
     (void)period;
     for(i = 0; i < channels; i++) {
         struct channel *c = &channel[i];
-        double recip;
+        double scale = checked_scale(c, &c->capture_scale);
+        double recip = scale == 0 ? 0 : (1.0 / ONE_STEP) / scale;
         read_position(c, &c->capture);
         hal_set_si32(c->counts, (rtapi_s32)(rtapi_u32)(c->capture.seen >> PICKOFF));
-        recip = (1.0 / ONE_STEP) / checked_scale(c, &c->capture_scale);
         hal_set_real(c->position_fb, (double)(c->capture.steps - HALF_STEP) * recip);
     }
 }
