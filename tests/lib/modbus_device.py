@@ -25,6 +25,8 @@ class Device:
         self.holding, self.registers = [0] * size, [0] * size
         self.asked = []         # function codes
         self.silent = False     # does not answer
+        self.broken = False     # answers with a wrong CRC (serial), or of another request (TCP)
+        self.watch = None       # called with address and value of each register or coil that is written
 
     def answer(self, pdu):
         code, at = pdu[0], int.from_bytes(pdu[1:3], "big")
@@ -40,6 +42,8 @@ class Device:
         if code in (3, 4):
             words = (self.holding if code == 3 else self.registers)[at:at + count]
             return bytes([code, 2 * count]) + b"".join(w.to_bytes(2, "big") for w in words)
+        if self.watch and code in (5, 6, 16):
+            self.watch(at, word(3) if code < 16 else word(6))
         if code == 5:
             self.coils[at] = word(3) == 0xFF00
             return pdu
@@ -57,27 +61,31 @@ class Device:
 
 
 class TcpDevice(Device):
-    """Listens on `port`; stop() closes it and every connection."""
+    """Listens on `port`; stop() closes it and every connection. Or calls a server, until hang_up()."""
 
-    def __init__(self, port=0):
-        super().__init__()
+    def __init__(self, port=0, size=200):
+        super().__init__(size)
         self.connections = []
         self.start(port)
+
+    def serve(self, connection):
+        self.connections.append(connection)
+        try:
+            while head := connection.recv(7, socket.MSG_WAITALL):
+                body = connection.recv(int.from_bytes(head[4:6], "big") - 1, socket.MSG_WAITALL)
+                if not self.silent:
+                    reply = self.answer(body)
+                    head = bytes([head[0] ^ self.broken]) + head[1:]
+                    connection.sendall(head[:4] + (len(reply) + 1).to_bytes(2, "big") + head[6:7] + reply)
+        except (OSError, IndexError):
+            pass
 
     def start(self, port):
         device = self
 
         class Handler(socketserver.BaseRequestHandler):
             def handle(self):
-                device.connections.append(self.request)
-                try:
-                    while head := self.request.recv(7, socket.MSG_WAITALL):
-                        body = self.request.recv(int.from_bytes(head[4:6], "big") - 1, socket.MSG_WAITALL)
-                        if not device.silent:
-                            reply = device.answer(body)
-                            self.request.sendall(head[:4] + (len(reply) + 1).to_bytes(2, "big") + head[6:7] + reply)
-                except (OSError, IndexError):
-                    pass
+                device.serve(self.request)
 
         class Server(socketserver.ThreadingTCPServer):
             allow_reuse_address = daemon_threads = True
@@ -86,40 +94,70 @@ class TcpDevice(Device):
         self.port = self.server.server_address[1]
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
 
-    def stop(self):
-        self.server.shutdown()
-        self.server.server_close()
+    def call(self, port):
+        connection = socket.create_connection(("127.0.0.1", port), 10)
+        connection.settimeout(None)
+        threading.Thread(target=self.serve, args=(connection,), daemon=True).start()
+
+    def hang_up(self):
         for connection in self.connections:
             try:
                 connection.shutdown(socket.SHUT_RDWR)
+                connection.close()
             except OSError:
                 pass
         self.connections.clear()
 
+    def stop(self):
+        self.server.shutdown()
+        self.server.server_close()
+        self.hang_up()
+
 
 class SerialDevice(Device):
-    """Device `slave` on a line; `path` is the other end."""
+    """Device `slave` on a line; `path` is the other end. With `link` that is a symbolic link, which unplug() takes
+    away together with the line, and plug() makes again."""
 
-    LENGTHS = {1: 8, 2: 8, 3: 8, 4: 8, 5: 8, 6: 8}
-
-    def __init__(self, slave, size=200):
+    def __init__(self, slave, size=200, link=None):
         super().__init__(size)
-        self.slave = slave
-        self.end, other = pty.openpty()
-        tty.setraw(self.end)
-        tty.setraw(other)
-        self.path, self.other = os.ttyname(other), other
-        threading.Thread(target=self.serve, daemon=True).start()
+        self.slave, self.link = slave, link
+        self.others = {}        # more devices on the line, by number
+        self.plug()
 
-    def serve(self):
+    def plug(self):
+        self.end, self.other = pty.openpty()
+        tty.setraw(self.end)
+        tty.setraw(self.other)
+        self.path = os.ttyname(self.other)
+        if self.link:
+            os.symlink(self.path, self.link)
+            self.path = self.link
+        self.thread = threading.Thread(target=self.serve, args=(self.end,), daemon=True)
+        self.thread.start()
+
+    def unplug(self):
+        os.unlink(self.link)
+        os.close(self.other)
+        os.write(self.end, b"")
+        end, self.end = self.end, None
+        os.close(end)
+
+    def serve(self, end):
+        try:
+            self.answer_all(end)
+        except OSError:
+            pass                # unplugged
+
+    def answer_all(self, end):
         data = b""
-        while more := os.read(self.end, 256):
+        while more := os.read(end, 256):
             data += more
             while len(data) >= 8:
-                size = self.LENGTHS.get(data[1]) or 9 + data[6]
+                size = 9 + data[6] if data[1] in (15, 16) else 8
                 if len(data) < size:
                     break
                 frame, data = data[:size], data[size:]
-                if frame[-2:] == crc(frame[:-2]) and frame[0] == self.slave and not self.silent:
-                    reply = bytes([self.slave]) + self.answer(frame[1:-2])
-                    os.write(self.end, reply + crc(reply))
+                device = self if frame[0] == self.slave else self.others.get(frame[0])
+                if device and frame[-2:] == crc(frame[:-2]) and not device.silent:
+                    reply = frame[:1] + device.answer(frame[1:-2])
+                    os.write(end, reply + (b"xx" if device.broken else crc(reply)))

@@ -22,6 +22,8 @@ $(eval $(call program,mb2hal,src/hal/user_comps/mb2hal/mb2hal.cc src/hal/user_co
 $(eval $(call program,gs2_vfd,src/hal/user_comps/vfd/gs2_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
 $(eval $(call program,hy_gt_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
 $(eval $(call program,svd-ps_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),))
+INI_DRIVE := src/hal/user_comps/vfd/ini_section.cc src/hal/user_comps/vfd/modbus_link.cc
+$(eval $(call program,vfs11_vfd,src/hal/user_comps/vfd/vfs11_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
 endif
 ifeq ($(HAVE_LIBUSB10),yes)
 $(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))

@@ -21,7 +21,6 @@ namespace {
 constexpr int MAX_ELEMENTS = 100;
 constexpr double NAP_S = 0.001;
 constexpr double RETRY_S = 0.1; // between attempts to connect
-constexpr double LOOK_S = 0.02; // a long wait looks so often whether the program ends
 
 bool reads_bits(Code c) { return c == Code::read_coils || c == Code::read_inputs; }
 bool reads_registers(Code c) { return c == Code::read_holding || c == Code::read_input_registers; }
@@ -133,14 +132,6 @@ Clock::duration duration(double seconds) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-void pause(double seconds) {
-    for (auto end = Clock::now() + duration(seconds); !ending;) {
-        auto now = Clock::now();
-        if (now >= end) return;
-        std::this_thread::sleep_for(std::min(end - now, duration(LOOK_S)));
-    }
-}
-
 class Worker {
 public:
     Worker(Config &config, Link &link) : config_(config), link_(link) {
@@ -157,7 +148,7 @@ public:
                 worked = true;
                 step(*t);
             }
-            if (!worked) pause(NAP_S);
+            if (!worked) pause_s(NAP_S);
         }
         drop();
     }
@@ -166,7 +157,7 @@ private:
     void step(Transaction &t) {
         if (!connect(t)) {
             **t.errors = **t.errors + 1;
-            pause(RETRY_S);
+            pause_s(RETRY_S);
             return;
         }
         modbus_set_slave(link_.context, t.slave);
@@ -180,8 +171,8 @@ private:
             failed(t);
         }
         if (t.rate_hz > 0) t.due = Clock::now() + duration(1 / t.rate_hz);
-        if (!link_.tcp && t.delay_ms > 0) pause(t.delay_ms * 1e-3);
-        if (config_.slowdown_s > 0) pause(config_.slowdown_s);
+        if (!link_.tcp && t.delay_ms > 0) pause_s(t.delay_ms * 1e-3);
+        if (config_.slowdown_s > 0) pause_s(config_.slowdown_s);
     }
 
     void failed(Transaction &t) {
@@ -195,7 +186,7 @@ private:
         if (gone) drop();
         else modbus_flush(link_.context);
         if (link_.tcp && reason == ETIMEDOUT) drop(); // a late answer must not be taken for the next one's
-        pause(NAP_S);
+        pause_s(NAP_S);
     }
 
     void set_timeouts(const Transaction &t) {

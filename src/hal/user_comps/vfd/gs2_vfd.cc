@@ -7,13 +7,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <climits>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <thread>
 
 #include "hal.h"
 #include "hardware_program.hh"
@@ -62,7 +60,7 @@ public:
         while (!ending) {
             step();
             double loop_s = pins_->loop_time;
-            std::this_thread::sleep_for(std::chrono::duration<double>(loop_s > 0.001 ? std::min(loop_s, 2.0) : 0.001));
+            pause_s(loop_s > 0.001 ? std::min(loop_s, 2.0) : 0.001);
         }
         // nothing turns on after the program
         for (int tries = 0; *pins_->initialized && tries < 5 && !write(RUN, 0);) tries++;
@@ -198,34 +196,27 @@ private:
     }
 
     bool make_all(Pins &p) {
-        struct {
-            hal_float_t **at;
-            const char *name;
-        } floats[] = {{&p.frequency_command, "frequency-command"},
-                      {&p.frequency_out, "frequency-out"},
-                      {&p.current, "output-current"},
-                      {&p.dc_volts, "DC-bus-volts"},
-                      {&p.out_volts, "output-voltage"},
-                      {&p.rpm, "motor-RPM"},
-                      {&p.scale_frequency, "scale-frequency"},
-                      {&p.power_factor, "power-factor"},
-                      {&p.load, "load-percentage"}};
-        for (auto &f : floats)
-            if (!pins_.pin(*f.at, HAL_OUT, f.name, hal_pin_float_newf)) return false;
-        struct {
-            hal_bit_t **at;
-            hal_pin_dir_t dir;
-            const char *name;
-        } bits[] = {{&p.at_speed, HAL_OUT, "at-speed"},       {&p.is_stopped, HAL_OUT, "is-stopped"},
-                    {&p.initialized, HAL_OUT, "initialized"}, {&p.on, HAL_IN, "spindle-on"},
-                    {&p.fwd, HAL_IN, "spindle-fwd"},          {&p.rev, HAL_IN, "spindle-rev"},
-                    {&p.err_reset, HAL_IN, "err-reset"},      {&p.enable, HAL_IN, "enable"}};
-        for (auto &b : bits)
-            if (!pins_.pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
-        return pins_.pin(p.status_1, HAL_OUT, "status-1", hal_pin_s32_newf) &&
-               pins_.pin(p.status_2, HAL_OUT, "status-2", hal_pin_s32_newf) &&
-               pins_.pin(p.firmware, HAL_OUT, "firmware-revision", hal_pin_s32_newf) &&
-               pins_.pin(p.speed_command, HAL_IN, "speed-command", hal_pin_float_newf) &&
+        return pins_.floats({{&p.frequency_command, HAL_OUT, "frequency-command"},
+                             {&p.frequency_out, HAL_OUT, "frequency-out"},
+                             {&p.current, HAL_OUT, "output-current"},
+                             {&p.dc_volts, HAL_OUT, "DC-bus-volts"},
+                             {&p.out_volts, HAL_OUT, "output-voltage"},
+                             {&p.rpm, HAL_OUT, "motor-RPM"},
+                             {&p.scale_frequency, HAL_OUT, "scale-frequency"},
+                             {&p.power_factor, HAL_OUT, "power-factor"},
+                             {&p.load, HAL_OUT, "load-percentage"},
+                             {&p.speed_command, HAL_IN, "speed-command"}}) &&
+               pins_.bits({{&p.at_speed, HAL_OUT, "at-speed"},
+                           {&p.is_stopped, HAL_OUT, "is-stopped"},
+                           {&p.initialized, HAL_OUT, "initialized"},
+                           {&p.on, HAL_IN, "spindle-on"},
+                           {&p.fwd, HAL_IN, "spindle-fwd"},
+                           {&p.rev, HAL_IN, "spindle-rev"},
+                           {&p.err_reset, HAL_IN, "err-reset"},
+                           {&p.enable, HAL_IN, "enable"}}) &&
+               pins_.integers({{&p.status_1, HAL_OUT, "status-1"},
+                               {&p.status_2, HAL_OUT, "status-2"},
+                               {&p.firmware, HAL_OUT, "firmware-revision"}}) &&
                pins_.parameter(p.error_count, "error-count", hal_param_s32_newf) &&
                pins_.parameter(p.retval, "retval", hal_param_s32_newf) &&
                pins_.parameter(p.ack_delay, "ack-delay", hal_param_s32_newf) &&

@@ -4,11 +4,9 @@
 #include <getopt.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 #include <vector>
 
 #include "hal.h"
@@ -29,8 +27,6 @@ constexpr double RATED_AT_HZ = 50, CYCLE_S = 0.1, LOOK_S = 0.01;
 constexpr int OK_AFTER = 10, STOP_TRIES = 5;
 constexpr size_t MAX_REGISTERS = 10;
 constexpr int STATUSES = 8;
-
-void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 struct Options {
     std::string name = "hy_vfd";
@@ -71,19 +67,19 @@ public:
         while (!ending) {
             if (!*pins_->enable) {
                 if (!stopped_) stopped_ = write_control(STOP); // it did not hear of it: again
-                sleep_s(LOOK_S);
+                pause_s(LOOK_S);
                 continue;
             }
             if (!set_up()) {
                 if (!told_) fprintf(stderr, "%s: error reading setup from VFD, retrying\n", options_.name.c_str());
                 told_ = true;
-                sleep_s(CYCLE_S);
+                pause_s(CYCLE_S);
                 continue;
             }
             told_ = false;
             while (!ending && *pins_->enable) {
                 cycle();
-                sleep_s(CYCLE_S);
+                pause_s(CYCLE_S);
             }
             rest();
         }
@@ -209,35 +205,26 @@ private:
             if (!pins_.pin(p.status[n], HAL_OUT, STATUS_NAMES[n], hal_pin_float_newf) ||
                 !pins_.pin(p.bits[n], HAL_OUT, BIT_NAMES[n], hal_pin_bit_newf))
                 return false;
-        struct {
-            hal_float_t **at;
-            hal_pin_dir_t dir;
-            const char *name;
-        } floats[] = {{&p.control, HAL_OUT, "CNTR"},
-                      {&p.answer, HAL_OUT, "CNST"},
-                      {&p.speed_command, HAL_IN, "speed-command"},
-                      {&p.frequency_command, HAL_OUT, "frequency-command"},
-                      {&p.max_freq, HAL_OUT, "max-freq"},
-                      {&p.base_freq, HAL_OUT, "base-freq"},
-                      {&p.lower_limit, HAL_OUT, "freq-lower-limit"},
-                      {&p.volts, HAL_OUT, "rated-motor-voltage"},
-                      {&p.amperes, HAL_OUT, "rated-motor-current"},
-                      {&p.rated_rev, HAL_OUT, "rated-motor-rev"},
-                      {&p.fb, HAL_OUT, "spindle-speed-fb"},
-                      {&p.fb_rps, HAL_OUT, "spindle-speed-fb-rps"},
-                      {&p.tolerance, HAL_IN, "spindle-at-speed-tolerance"}};
-        for (auto &f : floats)
-            if (!pins_.pin(*f.at, f.dir, f.name, hal_pin_float_newf)) return false;
-        struct {
-            hal_bit_t **at;
-            hal_pin_dir_t dir;
-            const char *name;
-        } bits[] = {{&p.enable, HAL_IN, "enable"},           {&p.forward, HAL_IN, "spindle-forward"},
-                    {&p.reverse, HAL_IN, "spindle-reverse"}, {&p.on, HAL_IN, "spindle-on"},
-                    {&p.ok, HAL_OUT, "hycomm-ok"},           {&p.at_speed, HAL_OUT, "spindle-at-speed"}};
-        for (auto &b : bits)
-            if (!pins_.pin(*b.at, b.dir, b.name, hal_pin_bit_newf)) return false;
-        return pins_.pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) &&
+        return pins_.floats({{&p.control, HAL_OUT, "CNTR"},
+                             {&p.answer, HAL_OUT, "CNST"},
+                             {&p.speed_command, HAL_IN, "speed-command"},
+                             {&p.frequency_command, HAL_OUT, "frequency-command"},
+                             {&p.max_freq, HAL_OUT, "max-freq"},
+                             {&p.base_freq, HAL_OUT, "base-freq"},
+                             {&p.lower_limit, HAL_OUT, "freq-lower-limit"},
+                             {&p.volts, HAL_OUT, "rated-motor-voltage"},
+                             {&p.amperes, HAL_OUT, "rated-motor-current"},
+                             {&p.rated_rev, HAL_OUT, "rated-motor-rev"},
+                             {&p.fb, HAL_OUT, "spindle-speed-fb"},
+                             {&p.fb_rps, HAL_OUT, "spindle-speed-fb-rps"},
+                             {&p.tolerance, HAL_IN, "spindle-at-speed-tolerance"}}) &&
+               pins_.bits({{&p.enable, HAL_IN, "enable"},
+                           {&p.forward, HAL_IN, "spindle-forward"},
+                           {&p.reverse, HAL_IN, "spindle-reverse"},
+                           {&p.on, HAL_IN, "spindle-on"},
+                           {&p.ok, HAL_OUT, "hycomm-ok"},
+                           {&p.at_speed, HAL_OUT, "spindle-at-speed"}}) &&
+               pins_.pin(p.poles, HAL_OUT, "motor-poles", hal_pin_u32_newf) &&
                pins_.pin(p.retval, HAL_OUT, "retval", hal_pin_u32_newf) &&
                pins_.pin(p.error_count, HAL_OUT, "error-count", hal_pin_s32_newf);
     }

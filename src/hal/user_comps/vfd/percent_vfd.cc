@@ -103,7 +103,7 @@ public:
         pins_.ready();
         while (!ending) {
             double period = *pins_->period;
-            std::this_thread::sleep_for(std::chrono::duration<double>(period > 0.001 ? std::min(period, 2.0) : 0.001));
+            pause_s(period > 0.001 ? std::min(period, 2.0) : 0.001);
             if (!ending) step();
         }
         write(kind_.run, STOP);

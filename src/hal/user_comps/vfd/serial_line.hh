@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "hal.h"
 #include "option_values.hh"
@@ -58,10 +59,46 @@ inline std::optional<bool> line_option(const char *program, int option, const ch
     }
 }
 
-/// A HAL component whose pins live in one structure `Pins` of HAL memory.
-template <class Pins> class PinnedComponent {
+/// Makes pins and parameters `PREFIX.name` of a component.
+class PinMaker {
 public:
-    explicit PinnedComponent(std::string name) : name_(std::move(name)) {}
+    PinMaker(int component, std::string prefix) : id_(component), prefix_(std::move(prefix)) {}
+
+    struct Bit { hal_bit_t **at; hal_pin_dir_t dir; const char *name; };
+    struct Float { hal_float_t **at; hal_pin_dir_t dir; const char *name; };
+    struct Integer { hal_s32_t **at; hal_pin_dir_t dir; const char *name; };
+
+    /// A pin by one of HAL's makers (hal_pin_bit_newf and so on).
+    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F maker) const {
+        return maker(dir, &at, id_, "%s.%s", prefix_.c_str(), name) == 0;
+    }
+
+    bool bits(std::initializer_list<Bit> pins) const { return all(pins, hal_pin_bit_newf); }
+    bool floats(std::initializer_list<Float> pins) const { return all(pins, hal_pin_float_newf); }
+    bool integers(std::initializer_list<Integer> pins) const { return all(pins, hal_pin_s32_newf); }
+
+    /// A parameter, read and written by all.
+    template <class T, class F> bool parameter(T &at, const char *name, F maker) const {
+        return maker(HAL_RW, &at, id_, "%s.%s", prefix_.c_str(), name) == 0;
+    }
+
+protected:
+    int id_;
+
+private:
+    template <class T, class F> bool all(std::initializer_list<T> pins, F maker) const {
+        for (const T &p : pins)
+            if (!pin(*p.at, p.dir, p.name, maker)) return false;
+        return true;
+    }
+
+    std::string prefix_;
+};
+
+/// A HAL component whose pins live in one structure `Pins` of HAL memory.
+template <class Pins> class PinnedComponent : public PinMaker {
+public:
+    explicit PinnedComponent(std::string name) : PinMaker(-1, name), name_(std::move(name)) {}
 
     /// Makes the component; `make_all(pins)` makes its pins. False: HAL has said why, nothing is left.
     template <class F> bool make(F make_all) {
@@ -73,16 +110,6 @@ public:
         return false;
     }
 
-    /// Pin `NAME.name` by one of HAL's makers (hal_pin_bit_newf and so on).
-    template <class T, class F> bool pin(T *&at, hal_pin_dir_t dir, const char *name, F maker) const {
-        return maker(dir, &at, id_, "%s.%s", name_.c_str(), name) == 0;
-    }
-
-    /// Parameter `NAME.name`, read and written by all.
-    template <class T, class F> bool parameter(T &at, const char *name, F maker) const {
-        return maker(HAL_RW, &at, id_, "%s.%s", name_.c_str(), name) == 0;
-    }
-
     void ready() const { hal_ready(id_); }
     void exit() const { hal_exit(id_); }
     Pins *operator->() const { return pins_; }
@@ -90,7 +117,6 @@ public:
 
 private:
     std::string name_;
-    int id_ = -1;
     Pins *pins_ = nullptr;
 };
 

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A drive program under test: its pins, and how it ends."""
+import signal
+import subprocess
+
+from hal_outside import halcmd, until
+
+
+class DriveProgram:
+    """Runs `words`; `prefix` stands before its pins."""
+
+    def __init__(self, *words, component=None, prefix=None):
+        self.component = component or words[0]
+        self.prefix = (prefix or self.component) + "."
+        self.process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        until(lambda: f" {self.component} " in f" {halcmd('list', 'comp')} ", "loaded")
+
+    def get(self, name):
+        return halcmd("getp", self.prefix + name)
+
+    def set(self, **values):
+        for name, value in values.items():
+            halcmd("setp", self.prefix + name.replace("_", "-"), str(value))
+
+    def all(self, names):
+        return {name: self.get(name) for name in names.split()}
+
+    def is_true(self, name):
+        return self.get(name) == "TRUE"
+
+    def end(self, number=signal.SIGTERM):
+        """Status and the lines of stderr."""
+        self.process.send_signal(number)
+        self.out, told = self.process.communicate(timeout=30)
+        return self.process.returncode, told.splitlines()
+
+
+def refusals(program, *options):
+    """What it says to options that are none."""
+    for words in options:
+        done = subprocess.run([program, *words], capture_output=True, text=True, timeout=20)
+        print(list(words), done.returncode, done.stderr.splitlines()[-1:])
