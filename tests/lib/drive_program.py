@@ -2,6 +2,7 @@
 """A drive program under test: its pins, and how it ends."""
 import signal
 import subprocess
+import time
 
 from hal_outside import halcmd, until
 
@@ -40,3 +41,29 @@ def refusals(program, *options):
     for words in options:
         done = subprocess.run([program, *words], capture_output=True, text=True, timeout=20)
         print(list(words), done.returncode, done.stderr.splitlines()[-1:])
+
+
+def ini_file(section, **keys):
+    """Writes drive.ini anew."""
+    with open("drive.ini", "w") as file:
+        print(f"[{section}]", *(f"{key} = {value}" for key, value in keys.items()), sep="\n", file=file)
+    return "drive.ini"
+
+
+def stands(drive, turns, seconds=0.2):
+    """Whether the drive is not told to run, all the time: `turns(drive)`."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if turns(drive):
+            return "runs"
+        time.sleep(0.005)
+    return "stands"
+
+
+def starts(program, drive, turns, what, on="spindle_on", ok="modbus-ok"):
+    """The command to run comes anew, to a drive that answers."""
+    program.set(**{on: 0})
+    until(lambda: not turns(drive) and program.is_true(ok), "ready")
+    stands(drive, turns, 0.1)
+    program.set(**{on: 1})
+    until(lambda: turns(drive), what)

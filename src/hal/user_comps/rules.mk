@@ -24,6 +24,7 @@ $(eval $(call program,hy_gt_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcncha
 $(eval $(call program,svd-ps_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),))
 INI_DRIVE := src/hal/user_comps/vfd/ini_section.cc src/hal/user_comps/vfd/modbus_link.cc
 $(eval $(call program,vfs11_vfd,src/hal/user_comps/vfd/vfs11_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
+$(eval $(call program,vfdb_vfd,src/hal/user_comps/vfd/vfdb_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
 endif
 ifeq ($(HAVE_LIBUSB10),yes)
 $(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))

@@ -5,7 +5,7 @@ import os
 import signal
 import time
 
-from drive_program import DriveProgram, refusals
+from drive_program import DriveProgram, ini_file, refusals, stands, starts
 from hal_outside import halcmd, pins, until
 from modbus_device import SerialDevice, TcpDevice
 
@@ -13,28 +13,20 @@ COMMAND, FREQUENCY, LIMIT, OUT, STATUS, TRIP, ALARM = 0xFA00, 0xFA01, 0x0012, 0x
 STOP, RUN, REVERSE, JOG = 0xC000, 0xC400, 0xC600, 0xC100
 
 
-def ini(section="VFS11", **keys):
-    with open("drive.ini", "w") as file:
-        print(f"[{section}]", *(f"{key} = {value}" for key, value in keys.items()), sep="\n", file=file)
-    return "drive.ini"
+def ini(**keys):
+    return ini_file("VFS11", **keys)
 
 
-def holds_still(drive, seconds=0.2):
-    """The drive is not told to run."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if drive.holding[COMMAND] & 0x500:
-            return "runs"
-        time.sleep(0.005)
-    return "stands"
+def turns(drive):
+    return drive.holding[COMMAND] & 0x500
 
 
 def run(program, drive, what):
-    program.set(spindle_on=0)
-    until(lambda: drive.holding[COMMAND] & 0xC500 == STOP and program.is_true("modbus-ok"), "ready")
-    holds_still(drive, 0.1)
-    program.set(spindle_on=1)
-    until(lambda: drive.holding[COMMAND] & 0xC400 == RUN, what)
+    starts(program, drive, turns, what)
+
+
+def holds_still(drive):
+    return stands(drive, turns)
 
 
 serial = {"TYPE": "rtu", "DEVICE": "line", "PARITY": "none", "RESPONSE_TIMEOUT": 0.2, "RECONNECT_DELAY": 0.1}

@@ -129,8 +129,9 @@ private:
     void step() {
         Pins &p = *pins_;
         switch_debug();
-        if (!(p.nameplate_hz >= 10)) p.nameplate_hz = settings_.motor_hz;
-        if (!(p.nameplate_rpm >= 600 && p.nameplate_rpm <= 5000)) p.nameplate_rpm = settings_.motor_rpm;
+        if (!(p.nameplate_hz >= settings_.lowest_hz)) p.nameplate_hz = settings_.motor_hz;
+        if (!(p.nameplate_rpm >= settings_.lowest_rpm && p.nameplate_rpm <= settings_.highest_rpm))
+            p.nameplate_rpm = settings_.motor_rpm;
         bool wanted = *p.on, enabled = *p.enable;
         bool was_lost = guard_.lost(), good;
         if (enabled) {

@@ -28,6 +28,7 @@ struct IniSettings {
     bool debug = false, modbus_debug = false;
     int poll_cycles = 10;
     double motor_hz = 50, motor_rpm = 1410, rpm_limit = 2000;
+    double lowest_hz = 10, lowest_rpm = 600, highest_rpm = 5000; ///< of a nameplate; another is set back
 };
 
 /// Reads settings. A wrong one is told on stderr as PROGRAM: FILE:[SECTION]KEY: found 'x' - ...; the value then
