@@ -50,8 +50,9 @@ def body(x: str, y: str) -> str:
     lines = [f"{C_TYPE[x]} value = in_;", f"{C_TYPE[y]} result = {cast};", "if(clamp) {",
              "    out_of_range = 0;"]
     if RANGE[x][1] > RANGE[y][1]:
-        bound = f"(double){MAX[y]}" if x == "float" else MAX[y]
-        lines += [f"    if(value > {bound}) {{", f"        result = {MAX[y]};", "        out_of_range = 1;",
+        # The greatest number of 64 bits is no double: the next one is already too great.
+        test = f">= (double){MAX[y]}" if x == "float" and y in ("s64", "u64") else f"> {MAX[y]}"
+        lines += [f"    if(value {test}) {{", f"        result = {MAX[y]};", "        out_of_range = 1;",
                   "    }"]
     if RANGE[x][0] < RANGE[y][0]:
         lines += [f"    if(value < {MIN[y]}) {{", f"        result = {MIN[y]};", "        out_of_range = 1;",

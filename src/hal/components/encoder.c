@@ -157,6 +157,7 @@ static rtapi_s64 add_missing_teeth(struct channel *c, rtapi_s64 raw, rtapi_u64 e
             c->limit_dt = (rtapi_u32)(0.9 * c->limit_dt
                                       + 0.1 * ((teeth + 0.5) * (elapsed / (rtapi_u32)change)));
         c->raw += extra;
+        hal_set_si32(c->rawcounts, (rtapi_s32)(rtapi_u64)c->raw);
         change += extra;
         c->gaps = 0;
     }
