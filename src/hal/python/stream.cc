@@ -58,8 +58,9 @@ public:
 
     void write(py::tuple record)
     {
-        if (record.size() > types_.size()) throw py::value_error("Too many elements to unpack");
-        if (record.size() < types_.size()) throw py::value_error("Too few elements to unpack");
+        /* The texts are those of the classic module: they speak of the elements that the types stand for. */
+        if (record.size() > types_.size()) throw py::value_error("Too few elements to unpack");
+        if (record.size() < types_.size()) throw py::value_error("Too many elements to unpack");
         hal_stream_data_u data[HAL_STREAM_MAX_PINS];
         for (size_t i = 0; i < types_.size(); i++)
             cell_set(&data[i], types_[i], from_python(record[i], types_[i], "stream element " + std::to_string(i)));
