@@ -25,6 +25,9 @@ $(eval $(call program,svd-ps_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcnch
 INI_DRIVE := src/hal/user_comps/vfd/ini_section.cc src/hal/user_comps/vfd/modbus_link.cc
 $(eval $(call program,vfs11_vfd,src/hal/user_comps/vfd/vfs11_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
 $(eval $(call program,vfdb_vfd,src/hal/user_comps/vfd/vfdb_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
+LINE_DRIVES := src/hal/user_comps/vfd/line_drives.cc src/hal/user_comps/vfd/modbus_link.cc
+$(eval $(call program,wj200_vfd,src/hal/user_comps/vfd/wj200_vfd.cc $(LINE_DRIVES),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
+$(eval $(call program,pi500_vfd,src/hal/user_comps/vfd/pi500_vfd.cc $(LINE_DRIVES),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
 endif
 ifeq ($(HAVE_LIBUSB10),yes)
 $(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
