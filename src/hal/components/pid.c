@@ -106,8 +106,9 @@ static void integrate(struct pid *p, double error, int enable, double dt)
     double sum = hal_get_real(p->error_i);
     if(!enable) {
         sum = 0;
-    } else if(error * p->limit_state <= 0) {
-        sum = limited(sum + error * dt, hal_get_real(p->maxerror_i));
+    } else {
+        if(error * p->limit_state <= 0) sum += error * dt;
+        sum = limited(sum, hal_get_real(p->maxerror_i));
     }
     hal_set_real(p->error_i, number(sum));
 }
@@ -156,7 +157,6 @@ static void enter_tune_mode(struct pid *p)
     hal_set_real(p->error_d, 0);
     hal_set_real(p->cmd_d, 0);
     hal_set_real(p->cmd_dd, 0);
-    hal_set_real(p->cmd_ddd, 0);
     p->prev_cmd = 0;
     p->limit_state = 0;
     hal_set_real(p->output, 0);
