@@ -852,7 +852,7 @@ def find_ini(options, tree):
             sys.exit(0)
     full = path if path.startswith("/") else os.path.join(os.getcwd(), path)
     if not os.path.isfile(full):
-        raise Failure(f"Could not find INI file '{path}'")
+        raise Failure(f"Could not find INI file '{full}'")
     return os.path.normpath(full)
 
 
