@@ -71,9 +71,16 @@ proc ::axis::menu_entry {menu label} {
 # relief EXPRESSION WIDGET -- shows a button pressed.
 proc relief {condition w} {
     if {![winfo exists $w]} return
+    set ::axis::pressed($w) $condition
     set pressed [uplevel #0 [list expr $condition]]
     $w configure -relief [expr {$pressed ? "sunken" : "flat"}] \
         -background [expr {$pressed ? $::axis::colour(chosen) : $::axis::colour(face)}]
+}
+
+# When the mouse is let go or leaves, Tk gives a button the relief back that it had before it was pressed: that of a
+# machine which has done meanwhile what the button says.
+proc ::axis::relief_again {w} {
+    if {[info exists ::axis::pressed($w)]} { relief $::axis::pressed($w) $w }
 }
 
 # -- tool bar ------------------------------------------------------------------------------
@@ -102,6 +109,7 @@ proc ::axis::tool {name image command help} {
     set w .toolbar.$name
     button $w -image [load_image $image] -command $command -relief flat -takefocus 0 -padx 2 -pady 2
     pack $w -side left -padx 1 -pady 2
+    foreach event {<ButtonRelease-1> <Leave>} { bind $w $event {after idle {::axis::relief_again %W}} }
     DynamicHelp::add $w -text $help
 }
 

@@ -59,6 +59,38 @@ def fields(op):
     op.wait(0.2)
 
 
+def slow_clicks(op):
+    """The machine has done what a button says before the mouse is let go, above it or beside: the tool bar shows the
+    machine."""
+    def press(name):
+        at = [str(int(op.root.tk.call("winfo", corner, f".toolbar.{name}")) + 8) for corner in ("rootx", "rooty")]
+        x("mousemove", *at, "mousedown", "1")
+        op.wait(0.4)
+
+    def shown(what, *away):
+        x(*away, "mouseup", "1")
+        op.wait(0.4)
+        print(f"{what}: state", op.stat.task_state, *screen_agrees.reliefs(op, op.stat))
+    press("machine_estop")
+    shown("stop, held")
+    press("machine_estop")
+    shown("reset, let go beside it", "mousemove", "300", "300")
+    press("machine_power")
+    shown("power")
+    press("program_optpause")
+    op.app.command.set_optional_stop(not op.stat.optional_stop)       # another client
+    op.wait(0.4)
+    shown("optional stop, let go beside it, another client was faster", "mousemove", "300", "300")
+    press("machine_power")
+    op.app.command.state(linuxcnc.STATE_ESTOP)
+    op.wait(0.4)
+    shown("power, while another client stops")
+    x("mousemove", "300", "300")
+    for key in ("F1", "F2"):
+        x("key", key)
+        op.wait(0.3)
+
+
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, root = op.app, op.root
@@ -112,6 +144,7 @@ def script(op):
     print("after it: rests", rests())
 
     fields(op)
+    slow_clicks(op)
     rng, held, faults = random.Random(SEED), [], 0
     for step in range(STEPS):
         if rng.random() < 0.3 and len(held) < 3:
