@@ -10,4 +10,4 @@ realtime stop 2> /dev/null
 echo "== preferences"; sed -E 's/[0-9]+x[0-9]+\+[0-9]+\+[0-9]+/GEOMETRY/; s/(ratio|placeFrames) 0\.[0-9]+/\1 R/; s/(old_w_leftf) [0-9]+/\1 N/' home/.halshow_preferences
 echo "== files"; sed 's/created .*/created DATE/' one.halshow many.halshow .halshow_watchlist_backup
 halshow --help | sed -n 1p; halshow --fformat; echo $?; halshow --fformat %z; echo $?; DISPLAY= halshow; echo $?
-rm -rf home one.halshow many.halshow other.halshow .halshow_watchlist_backup
+rm -rf home {one,many,other}.halshow{,.bak} .halshow_watchlist_backup{,.bak}

@@ -37,5 +37,5 @@ for f in calls expanded; do rs274 -g $f.ngc -i subs.ini 2>&1 | sed -E 's/^ *[0-9
 cmp calls.run expanded.run && head -3 calls.run
 timeout 60 ../../lib/with-display /usr/bin/python3 clicks.py
 cat auto.ngc
-rm -rf subs pre.ngc *.run calls.ngc expanded.ngc auto.ngc subs.ini shape.ini gcmc gcmc.words \
+rm -rf subs pre.ngc *.run calls.ngc expanded.ngc auto.ngc{,.bak} subs.ini shape.ini gcmc gcmc.words \
     /tmp/ngcgui_bak{,-$UID}/{calls,expanded,auto}.ngc 2>/dev/null || true      # those of another user stay

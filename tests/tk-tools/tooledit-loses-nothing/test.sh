@@ -9,4 +9,4 @@ echo "== file"; cat tool.tbl; echo "== backup"; cat tool.tbl.bak
 echo "== rc"; sed 's/[0-9]\+/N/g' .tooleditrc
 echo "== no arguments"; tooledit; echo $?
 echo "== words"; DISPLAY= tooledit x z x foo tool.tbl; echo $?
-rm -rf tool.tbl tool.tbl.bak .tooleditrc
+rm -rf {tool.tbl,.tooleditrc}{,.bak}
