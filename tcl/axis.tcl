@@ -62,7 +62,8 @@ proc state {condition args} {
 # Index of the entry with this label, or -1.
 proc ::axis::menu_entry {menu label} {
     set wanted [lindex [::axis::split_accel $label] 0]
-    for {set i 0} {$i <= [$menu index end]} {incr i} {
+    set last [$menu index end]
+    for {set i 0} {$last ne "none" && $i <= $last} {incr i} {
         if {[$menu type $i] ni {separator tearoff} && [$menu entrycget $i -label] eq $wanted} { return $i }
     }
     return -1
@@ -81,6 +82,41 @@ proc relief {condition w} {
 # machine which has done meanwhile what the button says.
 proc ::axis::relief_again {w} {
     if {[info exists ::axis::pressed($w)]} { relief $::axis::pressed($w) $w }
+}
+
+# -- what users remove -----------------------------------------------------------------------
+
+# A user's file may destroy widgets of the screen. The screen goes on to configure them: they only go out of sight.
+proc ::axis::keep {w} {
+    set ::axis::kept($w) 1
+    foreach child [winfo children $w] { keep $child }
+}
+
+proc ::axis::replace_destroy {} {
+    foreach w [winfo children .] { keep $w }
+    rename ::destroy ::axis::really_destroy
+    proc ::destroy {args} {
+        foreach w $args {
+            if {[info exists ::axis::kept($w)]} { ::axis::out_of_sight $w } else { ::axis::really_destroy $w }
+        }
+    }
+}
+
+proc ::axis::out_of_sight {w} {
+    set parent [winfo parent $w]
+    if {$w eq ".menu"} {
+        . configure -menu {}
+    } elseif {[winfo class $w] eq "Menu"} {
+        for {set i [$parent index end]} {$i ne "none" && $i >= 0} {incr i -1} {
+            if {[$parent type $i] eq "cascade" && [$parent entrycget $i -menu] eq $w} { $parent delete $i }
+        }
+    } else {
+        switch [winfo manager $w] {
+            wm { wm withdraw $w }
+            panedwindow { $parent forget $w }
+            pack - grid - place { [winfo manager $w] forget $w }
+        }
+    }
 }
 
 # -- tool bar ------------------------------------------------------------------------------
@@ -390,7 +426,7 @@ proc ::axis::build_manual {f} {
 
 proc combobox {w} {
     ttk::combobox $w -textvariable jogincrement -state readonly -width 12 -takefocus 0
-    bind $w <<ComboboxSelected>> {::axis::increment_chosen; focus .}
+    bind $w <<ComboboxSelected>> {focus .}
     bind $w <FocusIn> {after idle {::axis::give_back_focus %W}}
 }
 
@@ -574,7 +610,7 @@ proc ::axis::arrange {} {
     foreach w {jogspeed ajogspeed maxvel} { pack configure .pane.top.$w.l1 -padx $space }
     update idletasks
     foreach book {tabs right} { .pane.top.$book compute_size }
-    .pane paneconfigure .pane.bottom -height [winfo reqheight .pane.bottom]
+    if {".pane.bottom" in [.pane panes]} { .pane paneconfigure .pane.bottom -height [winfo reqheight .pane.bottom] }
 }
 
 # Menus that are higher than the screen go on beside, if possible at a separator.
@@ -635,6 +671,7 @@ proc ::axis::build {} {
     grid .info -row 5 -column 0 -columnspan 3 -sticky ew
     grid rowconfigure . 1 -weight 1
     grid columnconfigure . 1 -weight 1
+    replace_destroy
 }
 
 # -- what is possible now ------------------------------------------------------------------

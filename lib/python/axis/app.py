@@ -30,7 +30,7 @@ from .pins import PinsPart
 from .prefs import Preferences
 from .settings import LETTERS, MM_PER_INCH, SettingsError, parse_increment, read
 from .takeup import TakeUpPart
-from .touchoff import G21_ACTIVE, Checker, brackets, scale_text, unit_text
+from .touchoff import G21_ACTIVE, Checker, brackets, scale_text
 from .usercode import UserPart
 from .variables import Variables
 from .waits import Waits
@@ -73,7 +73,6 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.prefs = Preferences()
         self.vars = Variables(root)
         self.translate = language._
-        self.jog_invert, self.jog_order = self.settings.jog_invert(), self.settings.jog_order()
         # what the operator chose; what task opens; a copy of that
         self.loaded_file = self.shown_file = self.kept = None
         self.is_filtered = self.loading = self.cancel_loading = False
@@ -321,6 +320,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.vars.put(name, percent)
         send[name](percent / 100.0)
 
+    def set_feedrate(self, percent):
+        self.set_override("feedrate", int(percent))
+
+    def set_rapidrate(self, percent):
+        self.set_override("rapidrate", int(percent))
+
     def set_option(self, name, on):
         """Block delete or the optional stop, for the machine and for the next time."""
         self.prefs.putpref(name, bool(on))
@@ -333,17 +338,17 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
     def digit(self, number, is_grave):
         if self.joints_shown:
             if number < self.settings.joints and self.manual_ok():
-                self.activate_ja_widget(str(number), True)
+                self.select(str(number))
         elif is_grave:
-            self.set_override("feedrate", 0)
+            self.set_feedrate(0)
         else:
             percent = 10 * number if number else 100
-            self.set_override("feedrate", min(percent, int(100 * self.settings.max_feed_override + .5)))
+            self.set_feedrate(min(percent, int(100 * self.settings.max_feed_override + .5)))
 
     # -- increments ------------------------------------------------------------------------
 
     def increments(self):
-        return [self.translate("Continuous"), *self.settings.increments]
+        return [str(text) for text in self.root.tk.splitlist(self.widgets.jogincr.cget("values"))]
 
     def next_increment(self, direction):
         if self.jogger.running:
@@ -355,12 +360,10 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         else:
             index = min(len(all_) - 1, max(0 if direction > 0 else 1, index + direction))
         self.vars.jogincrement.set(all_[index])
-        self.increment_chosen()
 
     def continuous(self):
         if not self.jogger.running:
             self.vars.jogincrement.set(self.translate("Continuous"))
-            self.increment_chosen()
 
     def increment_chosen(self, *args):
         if self.vars.jogincrement.get() != self.translate("Continuous"):
@@ -369,18 +372,26 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
 
     # -- selection -------------------------------------------------------------------------
 
-    def activate_ja_widget(self, name, force=False):
+    def selectable(self):
+        """Names of joints or axes that can be selected, as they stand in COORDINATES."""
+        return [str(j) for j in range(self.settings.joints)] if self.joints_shown else \
+            list(self.settings.coordinates.lower())
+
+    def activate_ja_widget(self, place, force=False):
         """Selects a letter or joint (text), or a place (number) in COORDINATES or among the
         joints; force: whatever goes on."""
-        if not isinstance(name, str):
-            if not force and not self.manual_ok():
+        if not isinstance(place, str):
+            names = self.selectable()
+            if not 0 <= place < len(names) or not force and not self.manual_ok():
                 return
-            names = [str(j) for j in range(self.settings.joints)] if self.joints_shown else self.settings.coordinates
-            if not 0 <= name < len(names):
-                return
-            name = names[name]
-        self.vars.ja_rbutton.set(str(name).lower())
+            place = names[place]
+        self.vars.ja_rbutton.set(place.lower())
         self.show_selected()
+
+    def select(self, name):
+        """Selects a letter or joint by the function that a user's file may have replaced, which knows places."""
+        names, name = self.selectable(), name.lower()
+        self.activate_ja_widget(names.index(name) if name in names else name, True)
 
     def show_selected(self):
         chosen = self.vars.ja_rbutton.get()
@@ -408,7 +419,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
     def raised_tab(self):
         return str(self.root.tk.call(".pane.top.tabs", "raise"))
 
+    def pages(self, book):
+        return [str(page) for page in self.root.tk.splitlist(self.root.tk.call(book, "pages"))]
+
     def raise_tab(self, name):
+        if name not in self.pages(".pane.top.tabs"):         # a user's file has removed it
+            return
         self.root.tk.call(".pane.top.tabs", "raise", name)
         if name == "mdi":
             self.widgets.mdi_command.focus_set()
@@ -426,9 +442,11 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
                 self.TclCommands.ensure_manual()
 
     def next_tab(self):
-        pages = [str(p) for p in self.root.tk.splitlist(self.root.tk.call(".pane.top.right", "pages"))]
+        pages = self.pages(".pane.top.right")
         now = str(self.root.tk.call(".pane.top.right", "raise"))
-        self.root.tk.call(".pane.top.right", "raise", pages[(pages.index(now) + 1) % len(pages)])
+        if pages:
+            self.root.tk.call(".pane.top.right", "raise", pages[(pages.index(now) + 1) % len(pages)]
+                              if now in pages else pages[0])
 
     def add_tab(self, name, text):
         """A new page of the right notebook; returns the path of its frame."""
@@ -479,16 +497,12 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         if value is None:
             title = _("Tool %d TouchOff") % number if tool else _("Touch Off (system)") if actual is None \
                 else _("Touch Off (system ACTUAL)")
-            dialog = dialogs.Touchoff(self.root, title, _("Enter %s coordinate relative to workpiece:") % letter, 0.0,
-                                      unit_text(letter, s, self.stat, metric), check,
-                                      None if tool else self.vars.touch_off_system.get(),
-                                      self.touch_off_note(letter, tool), _)
-            answer = dialog.wait(dialog.entry)
-            if answer is None:
+            value, system = self.prompt_touchoff(title, _("Enter %s coordinate relative to workpiece:") % letter, 0.0,
+                                                 tool, self.vars.touch_off_system.get())
+            if value is None:
                 return
-            value = answer[0]
-            if answer[1]:
-                self.vars.touch_off_system.set(answer[1])
+            if system:
+                self.vars.touch_off_system.set(system)
         elif brackets(value):
             return
         scale = scale_text(letter, s, self.stat, metric)
@@ -621,7 +635,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
 
     def start(self, first_file):
         """Everything after the widgets, in the documented order."""
-        remote.serve(self.root, self, self.running)
+        remote.serve(self.root)
         living = self.former is not None     # a machine that others saw before: nothing of it is set anew
         self.tell_crashes(self.recorder.watch_crashes())
         if not living:
@@ -631,7 +645,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.make_panel()
         self.logging = threading.Thread(target=self.logger.start, args=(0.01,), daemon=True)
         self.logging.start()
-        self.activate_ja_widget(self.settings.coordinates[0])
+        self.select(self.settings.coordinates[0])
         self.show_title()
         initial = first_file or os.environ.get("AXIS_OPEN_FILE") or self.settings.find("DISPLAY", "OPEN_FILE")
         self.preview.set_view(self.lathe_view() if self.settings.lathe else "p")
@@ -651,11 +665,15 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
                                    self.translate("The preferences were damaged: they begin anew. The old file is %s")
                                    % self.prefs.damaged)
         self.hide_unconnected()
+        self.fit_screen()
+        before = self.places()
         self.run_user_file()
+        chosen = {name: value for name, value in self.places().items() if value != before[name]}
         self.fill_windows()
         self.finish_pins()
         self.start_tabs()
         self.fit_screen()
+        self.put(chosen)
         self.exit_status = 0
         if living:
             self.first_waits = False

@@ -10,6 +10,7 @@ import linuxcnc
 
 from . import dialogs, program, waits
 from .mdi import MdiHistory
+from .remote import answers
 from .settings import MM_PER_INCH
 
 ABORT_PULSE_MS = 300
@@ -44,6 +45,7 @@ def make(app):
             for name in dir(type(self)):
                 function = getattr(type(self), name)
                 if not name.startswith("_") and callable(function):
+                    setattr(self, name, function)        # no method: commands.NAME(...) is what Tcl calls
                     master.tk.createcommand(name, app.guarded(function))
 
         # -- machine -----------------------------------------------------------------------
@@ -374,7 +376,7 @@ def make(app):
             if s.homed[joint] and not app.confirm_rehome(_("This joint is already homed, are you sure "
                                                            "you want to re-home?")):
                 return
-            commands.home_joint_number(joint)
+            app.go_home(joint)
 
         def home_joint_number(joint):
             if not app.manual_ok() or app.any_homing() or not app.ensure_mode(linuxcnc.MODE_MANUAL):
@@ -412,10 +414,10 @@ def make(app):
         # -- overrides ---------------------------------------------------------------------
 
         def set_feedrate(value):
-            app.set_override("feedrate", int(float(value)))
+            app.set_feedrate(int(float(value)))
 
         def set_rapidrate(value):
-            app.set_override("rapidrate", int(float(value)))
+            app.set_rapidrate(int(float(value)))
 
         def set_spindlerate(value):
             app.set_override("spindlerate", int(float(value)))
@@ -532,6 +534,8 @@ def make(app):
 
         def launch_website(*event):
             app.run_program(["xdg-open", "https://linuxcnc.org/docs"])
+
+    TclCommands.remote = staticmethod(answers(root, app, lambda: app.running()))
 
     def toggle(name):
         def function(*event):

@@ -191,11 +191,11 @@ class FollowPart:
             self.joints_shown = joints
             self.root.tk.call("::axis::show_joints", int(joints))
             if joints or not first:
-                self.activate_ja_widget("0" if joints else self.settings.coordinates[0])
+                self.select("0" if joints else self.settings.coordinates[0])
         if (s.motion_mode == linuxcnc.TRAJ_MODE_COORD and s.task_mode == linuxcnc.MODE_MANUAL
                 and s.interp_state == linuxcnc.INTERP_IDLE):
             self.command.teleop_enable(1)
-        if (self.jogger.running and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON
+        if ((self.jogger.running or self.jogger.left_to_user) and (self.raised_tab() != "manual" or s.task_state != linuxcnc.STATE_ON
                                      or s.task_mode != linuxcnc.MODE_MANUAL)):
             self.jogger.stop_all()
         extra = range(self.settings.joints - s.num_extrajoints, self.settings.joints)
@@ -230,7 +230,7 @@ class FollowPart:
         else:
             moving = [c for c in self.settings.axes if abs(s.joint[self.settings.joint_of(c)]["velocity"]) > 1e-9]
         if len(moving) == 1 and moving[0].lower() != self.vars.ja_rbutton.get():
-            self.activate_ja_widget(moving[0])
+            self.select(moving[0])
 
     def follow_line(self):
         s = self.stat

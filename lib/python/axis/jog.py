@@ -40,6 +40,7 @@ class Jogger:
     def __init__(self, app):
         self.app = app
         self.running = {}        # owner -> (joint mode, number) of a continuous jog
+        self.left_to_user = {}   # owner -> number of a jog that a user's own jog_on() makes
         self.next_beat = 0.0
 
     # -- what is jogged --------------------------------------------------------------------
@@ -87,14 +88,21 @@ class Jogger:
         """Begins a jog of a letter or joint; returns True when it was sent. speed: units a
         second, None: that of the slider."""
         app = self.app
-        if owner in self.running or app.is_late() or not app.jog_allowed():
+        if owner in self.running or owner in self.left_to_user or app.is_late() or not app.jog_allowed():
             return False
         joint_mode = self.joint_mode()
         number = self.number(selected, joint_mode)
         if any(what == (joint_mode, number) for what in self.running.values()):
             return False
         app.set_motion_teleop(0 if joint_mode else 1)
-        speed = direction * (self.speed_of(number, joint_mode, fast) if speed is None else speed)
+        if speed is None:        # a key or button
+            speed = self.speed_of(number, joint_mode, True) if fast else app.get_jog_speed(number)
+            own = app.replaced("jog_on")
+            if own:
+                self.left_to_user[owner] = number
+                own(number, direction * speed)
+                return True
+        speed *= direction
         distance = self.distance()
         if distance:
             if app.stat.state != linuxcnc.RCS_DONE:
@@ -120,10 +128,15 @@ class Jogger:
             self.app.root.after(int(1000 * BEAT_S), self.beat_on)
 
     def stop(self, owner):
-        what = self.running.pop(owner, None)
+        what, number = self.running.pop(owner, None), self.left_to_user.pop(owner, None)
         if what is not None:
             self.app.command.jog(linuxcnc.JOG_STOP, *what)
+        if number is not None:
+            try:
+                self.app.user["jog_off"](number)
+            finally:                     # whatever the user's function does, a jog does not outlive its key
+                self.app.jog_off(number)
 
     def stop_all(self):
-        for owner in list(self.running):
+        for owner in [*self.running, *self.left_to_user]:
             self.stop(owner)

@@ -41,8 +41,9 @@ class Keys:
                                   # keysym: with another modifier the release has another one than the press.
         self.spindle_keys = set() # of the keys that change the spindle's speed, those that are held
         root = app.root
-        root.bind("<KeyPress>", self.press)
-        root.bind("<KeyRelease>", self.release)
+        for key in (*JOG_KEYS, "minus", "equal", *PLAIN, *SIGNS, *"xyzaicd"):
+            root.bind(f"<KeyPress-{key}>", self.press)       # one by one: a user's file may take any of them away
+        root.bind_all("<KeyRelease>", self.release)          # whatever a user's file binds, a jog ends
         root.bind_all("<Key-F1>", lambda event: self.call("estop_clicked"))      # whatever else is held
         for sequence, command in BOUND.items():
             self.bind(sequence, lambda name=command: self.call(name))
@@ -142,7 +143,7 @@ class Keys:
         if not selected.isdigit() and selected.upper() in app.jog_invert:
             direction = -direction
         if app.jogger.start(code, selected, direction, fast):
-            app.activate_ja_widget(selected, True)
+            app.select(selected)
 
     def release(self, event):
         code = event.keycode
@@ -171,7 +172,7 @@ class Keys:
         app = self.app
         if key in "xyza" and len(key) == 1:
             if key.upper() in app.settings.axes and not app.joints_shown and app.manual_ok():
-                app.activate_ja_widget(key, True)
+                app.select(key)
             return True
         if key == "grave" or (len(key) == 1 and key.isdigit()):
             app.digit(0 if key == "grave" else int(key), key == "grave")

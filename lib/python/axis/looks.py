@@ -120,6 +120,20 @@ class LooksPart:
         for label in self.widgets.help_window.winfo_children():
             label.configure(wraplength=dialogs.letters(root, HELP_LETTERS))
 
+    def places(self):
+        """What a user's file may choose about the window: the command that sets it, and the words of the value."""
+        tcl, found = self.root.tk, {}
+        tcl.call("update", "idletasks")
+        for ask, put in (("wm minsize .", "wm minsize ."), ("wm geometry .", "wm geometry ."),
+                         (".pane.bottom.t.text cget -height", ".pane.bottom.t.text configure -height")):
+            found[put] = tcl.eval(ask)
+        return found
+
+    def put(self, chosen):
+        """The last word about these places."""
+        for command, value in chosen.items():
+            self.root.tk.eval(f"{command} {value}")
+
     def more_code(self, spare):
         """Lines of the program that a low screen has room for, out of so many pixels."""
         line = int(self.root.tk.call("font", "metrics", "TkFixedFont", "-linespace"))

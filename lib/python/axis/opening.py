@@ -376,6 +376,7 @@ class OpeningPart:
         self.loading, self.cancel_loading = True, False
         self.bar = (self.root.nametowidget(".info.progress") if self.known(".info.progress")
                     else self.wrap(".info.progress"))
+        self.position_packed = self.root.tk.eval("if {[winfo manager .info.position] ne {}} {pack info .info.position}")
         self.root.tk.call("pack", "forget", ".info.position")
         self.root.tk.call("pack", ".info.progress", "-side", "left", "-fill", "both", "-expand", 1)
         self.root.tk.call(".info.progress", "delete", "all")
@@ -418,7 +419,8 @@ class OpeningPart:
     def end_progress(self):
         self.loading = False
         self.root.tk.call("pack", "forget", ".info.progress")
-        self.root.tk.call("pack", ".info.position", "-side", "left", "-padx", 6, "-fill", "x", "-expand", 1)
+        if self.position_packed:
+            self.root.tk.eval(f"pack .info.position {self.position_packed}")
         self.root.configure(cursor="")
 
     def limit_warnings(self):

@@ -6,9 +6,8 @@ import subprocess
 BUSY = "axis cannot accept remote command while running"
 
 
-def serve(root, screen, running):
-    """Names the program `axis` and answers `remote`. screen has load(path), reload(), send_mdi(text),
-    clear_live_plot() and quit(), of which load and reload may return BUSY; running() is true while a program runs."""
+def serve(root):
+    """Names the program `axis`."""
     for entry in ("gdm", "root"):  # Tk takes commands of others only when xauth alone guards the display
         try:
             subprocess.run(["xhost", f"-SI:localuser:{entry}"], stdout=subprocess.DEVNULL,
@@ -16,6 +15,11 @@ def serve(root, screen, running):
         except (OSError, subprocess.TimeoutExpired):
             break
     root.tk.call("tk", "appname", "axis")
+
+
+def answers(root, screen, running):
+    """The command `remote`. screen has load(path), reload(), send_mdi(text), clear_live_plot() and quit(), of which
+    load and reload may return BUSY; running() is true while a program runs."""
     verbs = {"open_file_name": screen.load, "reload_file": screen.reload, "send_mdi_command": screen.send_mdi,
              "clear_live_plot": screen.clear_live_plot, "destroy": lambda: root.after_idle(screen.quit)}
 
@@ -26,4 +30,4 @@ def serve(root, screen, running):
             return BUSY
         return BUSY if verbs[verb](*arguments) == BUSY else ""
 
-    root.createcommand("remote", remote)
+    return remote

@@ -89,7 +89,6 @@ class TakeUpPart:
         self.units_changed()
         self.slider("ajog", None)
         self.show_selected()
-        self.increment_chosen()
         self.show_panel()
         if self.former.get("view"):
             self.preview.set_view(self.former["view"])

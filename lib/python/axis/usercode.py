@@ -21,7 +21,12 @@ from kerf.language import N_
 from . import dialogs
 from . import help as help_texts
 from .settings import LETTERS
-from .touchoff import Checker
+from .touchoff import Checker, unit_text
+
+
+# functions of the screen that a user's file may replace by its own
+REPLACEABLE = ("running", "manual_ok", "ensure_mode", "all_homed", "go_home", "set_motion_teleop", "activate_ja_widget",
+               "open_file_guts", "reload_file", "prompt_touchoff", "set_feedrate", "set_rapidrate", "get_jog_speed")
 
 
 class UserPart:
@@ -31,6 +36,7 @@ class UserPart:
         given = self.settings.find("DISPLAY", "USER_COMMAND_FILE")
         path = os.path.expanduser(given or "~/.axisrc")
         self.user = self.user_names()
+        self.given = dict(self.user)
         if not os.path.exists(path):
             if given:
                 self.notifications.add("error",
@@ -46,8 +52,24 @@ class UserPart:
                         self.translate("The error given below occurred in your ~/.axisrc; AXIS goes on "
                                        "without the rest of it."),
                         "error", 0, self.translate("OK"), extra=text)
-        self.jog_invert = str(self.user.get("jog_invert", "")).upper()       # may be set there
-        self.jog_order = [c for c in str(self.user.get("jog_order", "")).upper() if c in self.settings.axes]
+        for name in REPLACEABLE:
+            if self.replaced(name):
+                setattr(self, name, self.user[name])
+
+    def replaced(self, name):
+        """The function that a user's file has put in the place of the screen's, or None."""
+        own = self.user.get(name)
+        return own if own is not None and own != self.given.get(name) else None
+
+    @property
+    def jog_invert(self):
+        """Letters whose keys are turned round; user code may change them at any time."""
+        return str(self.user["jog_invert"]).upper() if "jog_invert" in self.user else self.settings.jog_invert()
+
+    @property
+    def jog_order(self):
+        return [c for c in str(self.user["jog_order"]).upper() if c in self.settings.axes] \
+            if "jog_order" in self.user else self.settings.jog_order()
 
     def user_names(self):
         """What the user's code finds in its globals."""
@@ -59,8 +81,8 @@ class UserPart:
                      trajcoordinates=self.settings.coordinates.lower(), num_joints=self.settings.joints,
                      lathe=int(self.settings.lathe), foam=int(self.settings.foam), jog_order="".join(self.jog_order),
                      jog_invert=self.jog_invert, loaded_file=self.loaded_file, current_tool=None,
-                     set_feedrate=lambda n: self.set_override("feedrate", int(n)),
-                     set_rapidrate=lambda n: self.set_override("rapidrate", int(n)), get_jog_speed=self.get_jog_speed,
+                     set_feedrate=self.set_feedrate, set_rapidrate=self.set_rapidrate,
+                     get_jog_speed=self.get_jog_speed,
                      jog_on=self.jog_on, jog_off=self.jog_off, running=self.running, manual_ok=self.manual_ok,
                      ensure_mode=self.ensure_mode, prompt_float=self.prompt_float, prompt_touchoff=self.prompt_touchoff,
                      all_homed=self.all_homed, go_home=self.go_home, set_motion_teleop=self.set_motion_teleop,
@@ -88,7 +110,11 @@ class UserPart:
         self.jogger.start(f"user {number}", name, 1 if speed_now > 0 else -1, speed=abs(speed_now))
 
     def jog_off(self, number):
-        self.jogger.stop(f"user {number}")
+        owner = f"user {number}"
+        if owner in self.jogger.running:
+            self.jogger.stop(owner)
+        elif not isinstance(number, str):        # of a jog that user code commanded itself
+            self.command.jog(linuxcnc.JOG_STOP, self.jogger.joint_mode(), int(number))
 
     def right_click_menu(self, event):
         """Cut, copy and paste for a text or an entry."""
@@ -111,9 +137,12 @@ class UserPart:
     def prompt_touchoff(self, title, text, default, tool_only=False, system=None):
         """(text as typed, system) or (None, None) when cancelled."""
         checker = Checker(self.settings, self.loader.own_parameters("prompt.var"))
-        dialog = dialogs.Touchoff(self.root, title, text, default, "", checker,
-                                  None if tool_only else system or self.vars.touch_off_system.get(),
-                                  translate=self.translate)
+        letter = self.vars.ja_rbutton.get().upper()
+        unit, note = (unit_text(letter, self.settings, self.stat, bool(self.vars.metric.get())),
+                      self.touch_off_note(letter, tool_only)) if letter in self.settings.axes else ("", None)
+        dialog = dialogs.Touchoff(self.root, title, text, default, unit, checker,
+                                  None if tool_only else system or self.vars.touch_off_system.get(), note,
+                                  self.translate)
         return dialog.wait(dialog.entry) or (None, None)
 
     def nf_dialog(self, path, title, text, icon, default, *buttons):

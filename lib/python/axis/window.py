@@ -59,6 +59,14 @@ def widget_names():
     return names
 
 
+class Menu(tk.Menu):
+    """A menu that Tcl made: what its entries call stays when a user's file deletes one."""
+
+    def deletecommand(self, name):
+        if name in (self._tclCommands or ()):
+            super().deletecommand(name)
+
+
 class WindowPart(LooksPart):
     """Part of App: builds the window."""
 
@@ -80,7 +88,7 @@ class WindowPart(LooksPart):
         for name, function in {"jog_slider": lambda x: self.slider("jog", x),
                                "ajog_slider": lambda x: self.slider("ajog", x),
                                "maxvel_slider": lambda x: self.slider("maxvel", x), "raised_manual": self.tab_raised,
-                               "raised_mdi": self.tab_raised, "increment_chosen": self.increment_chosen,
+                               "raised_mdi": self.tab_raised,
                                "can_undo": lambda: int(self.undo_lines is not None),
                                "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
                                "large_touch_targets": lambda: self.set_touch(self.vars.large_touch_targets.get()),
@@ -121,6 +129,7 @@ class WindowPart(LooksPart):
                      "motion_mode", "tool", "spindledir", "on_any_limit", "queued_mdi_commands", "block_delete",
                      "optional_stop", "has_ladder", "has_editor", "kinematics_type", "max_queued_mdi_commands"):
             getattr(self.vars, name).trace_add("write", self.state_changed)
+        self.vars.jogincrement.trace_add("write", self.increment_chosen)
         self.state_pending = False
         self.state_changed()
 
@@ -135,13 +144,14 @@ class WindowPart(LooksPart):
         """A Python object for a widget that Tcl made."""
         kinds = {"Text": tk.Text, "Button": tk.Button, "Radiobutton": tk.Radiobutton, "Checkbutton": tk.Checkbutton,
                  "Entry": tk.Entry, "Listbox": tk.Listbox, "Scrollbar": tk.Scrollbar, "Scale": tk.Scale,
-                 "Menu": tk.Menu, "Label": tk.Label, "Toplevel": tk.Toplevel,
+                 "Menu": Menu, "Label": tk.Label, "Toplevel": tk.Toplevel,
                  "TCombobox": tkinter.ttk.Combobox}
         kind = kinds.get(self.root.tk.eval(f"winfo class {path}"), tk.Frame)
         widget = kind.__new__(kind)
         parent, _, name = path.rpartition(".")
         widget.master = self.root
         widget.tk, widget._w, widget._name, widget.children = self.root.tk, path, name, {}
+        widget.destroy = lambda: self.root.tk.call("destroy", path)      # axis.tcl: out of sight, no more
         if parent:
             holder = self.root
             for part in parent.strip(".").split("."):
