@@ -60,10 +60,15 @@ def stands(drive, turns, seconds=0.2):
     return "stands"
 
 
-def starts(program, drive, turns, what, on="spindle_on", ok="modbus-ok"):
+def wait(seconds):
+    """For what shall not happen, or goes on meanwhile."""
+    stands(None, lambda _drive: False, seconds)
+
+
+def starts(program, drive, turns, what, on="spindle_on", ok="modbus-ok", rest_s=0.1):
     """The command to run comes anew, to a drive that answers."""
     program.set(**{on: 0})
     until(lambda: not turns(drive) and program.is_true(ok), "ready")
-    stands(drive, turns, 0.1)
+    stands(drive, turns, rest_s)
     program.set(**{on: 1})
     until(lambda: turns(drive), what)

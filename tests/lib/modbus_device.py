@@ -130,6 +130,8 @@ class SerialDevice(Device):
         tty.setraw(self.other)
         self.path = os.ttyname(self.other)
         if self.link:
+            if os.path.islink(self.link):
+                os.unlink(self.link)
             os.symlink(self.path, self.link)
             self.path = self.link
         self.thread = threading.Thread(target=self.serve, args=(self.end,), daemon=True)

@@ -54,7 +54,7 @@ GROUPS = {
     "Boards with HostMot2 firmware": "hostmot2 hm2_eth hm2_pci hm2_spi hm2_spix hm2_rpspi hm2_7i43 hm2_7i90 hm2_test "
                                      "mesa_uart hm2_modbus mesambccc elbpcom",
     "Sensors": "max31855 thermistor",
-    "Devices on Modbus and USB": """mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd vfs11_vfd vfdb_vfd wj200_vfd
+    "Devices on Modbus and USB": """mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd mitsub_vfd vfs11_vfd vfdb_vfd wj200_vfd
         pi500_vfd pmx485 shuttle xhc-hb04""",
 }
 TITLE = re.compile(r"^= \S+\((\d)\)$", re.M)

@@ -8,12 +8,8 @@ While `enable` is TRUE the cutter is in remote mode: mode, current and pressure 
 arc time. Ends with the component motmod.
 """
 
-import errno
-import os
-import select
 import signal
 import sys
-import termios
 import time
 from pathlib import Path
 
@@ -23,71 +19,12 @@ if (here.parent / "lib/python/kerf").is_dir():
 
 import hal
 from kerf import clock
+from kerf.powermax import ARC_HIGH, ARC_LOW, FAULT, LIMITS, SCALE, SET, Line, raw
 
 NAME = "pmx485"
-TIMEOUT_S = 0.1
 POLL_S = 0.02
 BAD_ROUNDS = 3          # more in a row: the line is opened anew
 RETRY_S = 1.0
-MODE, CURRENT, PRESSURE, FAULT = 0x2093, 0x2094, 0x2096, 0x2098
-CURRENT_MIN, CURRENT_MAX, PRESSURE_MIN, PRESSURE_MAX = 0x2099, 0x209A, 0x209C, 0x209D
-ARC_LOW, ARC_HIGH = 0x209E, 0x209F
-SCALE = {MODE: 1, CURRENT: 64, PRESSURE: 128, FAULT: 1, CURRENT_MIN: 64, CURRENT_MAX: 64, PRESSURE_MIN: 128,
-         PRESSURE_MAX: 128}
-SET = {MODE: "mode", CURRENT: "current", PRESSURE: "pressure"}
-LIMITS = {CURRENT_MIN: "current_min", CURRENT_MAX: "current_max", PRESSURE_MIN: "pressure_min",
-          PRESSURE_MAX: "pressure_max"}
-
-
-def lrc(text):
-    """Two digits that make the sum of all bytes 0."""
-    return b"%02X" % (-sum(bytes.fromhex(text.decode())) & 0xFF)
-
-
-class Line:
-    """The serial line, 19200 8E1. Raises OSError when it can not be opened or is gone."""
-
-    def __init__(self, port):
-        self.fd = os.open(port, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
-        try:
-            control = termios.CS8 | termios.PARENB | termios.CREAD | termios.CLOCAL
-            characters = [b"\0"] * 32
-            termios.tcsetattr(self.fd, termios.TCSANOW, [0, 0, control, 0, termios.B19200, termios.B19200, characters])
-        except termios.error as e:
-            if e.args[0] != errno.EINVAL:       # a pseudo terminal knows no parity
-                os.close(self.fd)
-                raise OSError(*e.args) from None
-
-    def close(self):
-        os.close(self.fd)
-
-    def ask(self, body):
-        """The answer to a frame, whole lines only; b"" after the time-out."""
-        termios.tcflush(self.fd, termios.TCIFLUSH)
-        os.write(self.fd, b":" + body + lrc(body) + b"\r\n")
-        answer, end = b"", time.monotonic() + TIMEOUT_S
-        while not answer.endswith(b"\r\n"):
-            left = end - time.monotonic()
-            if left <= 0 or not select.select([self.fd], [], [], left)[0]:
-                return b""
-            more = os.read(self.fd, 64)
-            if not more:
-                return b""
-            answer += more
-        return answer
-
-    def write(self, register, value):
-        body = b"0106%04X%04X" % (register, value)
-        return self.ask(body) == b":" + body + lrc(body) + b"\r\n"
-
-    def read(self, register):
-        """Its value, or None."""
-        answer = self.ask(b"0104%04X0001" % register)
-        try:
-            good = len(answer) == 15 and answer[:7] == b":010402" and lrc(answer[1:11]) == answer[11:13]
-            return int(answer[7:11], 16) if good else None
-        except ValueError:
-            return None
 
 
 class Cutter:
@@ -96,7 +33,7 @@ class Cutter:
         self.line, self.known, self.bad, self.due = None, {}, 0, 0.0
 
     def wanted(self, register):
-        return min(max(int(self.pins[SET[register] + "_set"] * SCALE[register]), 0), 0xFFFF)
+        return raw(register, self.pins[SET[register] + "_set"])
 
     def show(self, name, register, value):
         if value is not None:

@@ -2,7 +2,7 @@
 """pi500_vfd with a drive on a pty: pins, speed, faults of drive and line, disabling, the end."""
 import os
 
-from drive_program import DriveProgram, stands, starts
+from drive_program import DriveProgram, stands, starts, wait
 from hal_outside import pins, until
 from modbus_device import SerialDevice
 
@@ -29,6 +29,7 @@ def turns(drive):
 
 def run(what):
     starts(vfd, drive, turns, what, on="run", ok="is-ready")
+    until(lambda: vfd.is_true("is-at-speed"), "at speed")
 
 
 drive.watch = simulate
@@ -39,7 +40,6 @@ vfd.set(mbslaveaddr=7)
 until(lambda: told == [6] and vfd.is_true("is-ready"), "what a killed program left running stops")
 vfd.set(commanded_frequency=100, enable=1)
 run("runs")
-until(lambda: vfd.is_true("is-at-speed") and vfd.is_true("is-running"), "at speed")
 print(drive.holding[SET], vfd.all("motor-current heatsink-temp is-ready is-alarm"))
 before = vfd.get("watchdog-out")
 until(lambda: vfd.get("watchdog-out") != before, "the watchdog toggles")
@@ -59,7 +59,7 @@ until(lambda: vfd.is_true("is-alarm") and told[-1] == 6, "a fault: no command to
 told.clear()
 print(stands(drive, turns), told)
 vfd.set(enable=0)
-stands(drive, turns, 0.3)
+wait(0.3)
 vfd.set(enable=1)
 until(lambda: told == [7] and not vfd.is_true("is-alarm"), "disabled and enabled: reset")
 print("after it:", stands(drive, turns))
@@ -78,7 +78,7 @@ print("a disturbance does not stop it:", stands(drive, turns))
 told.clear()
 drive.silent = True
 until(lambda: not vfd.is_true("is-ready") and not vfd.is_true("is-at-speed"), "silence")
-stands(None, lambda drive: False, 2)
+wait(2)
 drive.silent = False
 until(lambda: vfd.is_true("is-ready"), "answers")
 print("told:", told, stands(drive, turns))

@@ -3,9 +3,8 @@
 connection, disabling, emergency stop, the end, settings."""
 import os
 import signal
-import time
 
-from drive_program import DriveProgram, ini_file, refusals, stands, starts
+from drive_program import DriveProgram, ini_file, refusals, stands, starts, wait
 from hal_outside import halcmd, pins, until
 from modbus_device import SerialDevice, TcpDevice
 
@@ -116,7 +115,7 @@ print("a disturbance does not stop it:", holds_still(drive))
 told.clear()
 drive.silent = True
 until(lambda: not vfd.is_true("modbus-ok") and not vfd.is_true("is-stopped"), "silence")
-time.sleep(1.3)
+wait(1.3)
 drive.silent = False
 until(lambda: told and not told[0] & 0x500, "the first that it hears is the stop")
 until(lambda: vfd.is_true("modbus-ok"), "answers")
@@ -141,7 +140,7 @@ print("still on:", holds_still(drive))
 run(vfd, drive, "runs")
 drive.silent = True
 vfd.set(enable=0)
-time.sleep(0.3)
+wait(0.3)
 drive.silent = False
 until(lambda: drive.holding[COMMAND] == 0, "disabled while the line was dead")
 vfd.set(enable=1, max_speed=1)

@@ -2,9 +2,8 @@
 """vfdb_vfd with a drive on a pty: pins, both directions, speed, faults of drive and line, a lost line, disabling, the
 end, settings."""
 import os
-import time
 
-from drive_program import DriveProgram, ini_file, refusals, stands, starts
+from drive_program import DriveProgram, ini_file, refusals, stands, starts, wait
 from hal_outside import pins, until
 from modbus_device import SerialDevice
 
@@ -77,7 +76,7 @@ print("a disturbance does not stop it:", stands(drive, turns))
 told.clear()
 drive.silent = True
 until(lambda: not vfd.is_true("modbus-ok") and not vfd.is_true("is-stopped"), "silence")
-time.sleep(2)
+wait(2)
 drive.silent = False
 until(lambda: told and not told[0] & 2, "the first that it hears is the stop")
 until(lambda: vfd.is_true("modbus-ok"), "answers")
@@ -100,7 +99,7 @@ print("still on:", stands(drive, turns))
 starts(vfd, drive, turns, "runs")
 drive.silent = True
 vfd.set(enable=0)
-time.sleep(0.3)
+wait(0.3)
 drive.silent = False
 until(lambda: drive.holding[COMMAND] == 0, "disabled while the line was dead")
 vfd.set(enable=1, max_speed=1)

@@ -2,9 +2,8 @@
 """wj200_vfd with two drives on a pty: pins, both directions, speed, trip and reset, faults of drive and line, a lost
 line, the end, command line."""
 import os
-import time
 
-from drive_program import DriveProgram, refusals, stands, starts
+from drive_program import DriveProgram, refusals, stands, starts, wait
 from hal_outside import halcmd, pins, until
 from modbus_device import Device, SerialDevice
 
@@ -83,7 +82,7 @@ until(lambda: vfd.is_true("is-alarm") and drive.told[-1] == (RUN, False), "a fau
 drive.told.clear()
 print(stands(drive, turns), drive.told)
 vfd.set(enable=0)
-time.sleep(0.3)
+wait(0.3)
 vfd.set(enable=1)
 until(lambda: not vfd.is_true("is-alarm"), "disabled and enabled: reset")
 print("after it:", stands(drive, turns))
