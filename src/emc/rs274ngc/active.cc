@@ -98,7 +98,7 @@ void fill_tag(const Setup &s, state_tag_t *tag)
     f[GM_FIELD_LINE_NUMBER] = s.sequence_number;
     f[GM_FIELD_G_MODE_0] = s.last_g0;
     f[GM_FIELD_CUTTER_COMP] = s.comp_side == COMP_RIGHT ? G_42 : s.comp_side == COMP_LEFT ? G_41 : G_40;
-    f[GM_FIELD_MOTION_MODE] = s.motion_mode;
+    f[GM_FIELD_MOTION_MODE] = is_drill_cycle(s.block.motion) ? s.block.motion : s.motion_mode;
     f[GM_FIELD_PLANE] = plane_g(s.plane);
     f[GM_FIELD_M_MODES_4] = s.last_stop;
     f[GM_FIELD_ORIGIN] = system_g(s.origin_index);

@@ -346,9 +346,7 @@ int convert_cycle(Setup &s, int g)
     }
     c.clear = s.retract_mode == R_PLANE ? r : level;
 
-    const CANON_MOTION_MODE mode = s.control_mode;
-    const double tolerance = s.tolerance, naive = s.naivecam_tolerance;
-    if (mode != CANON_EXACT_PATH) set_control_mode(s, CANON_EXACT_PATH, 0);
+    exact_moves(s, true);
     if (b.present & POLAR_WORDS) TRY(take_polar(s, incremental ? &aa_step : &aa, incremental ? &bb_step : &bb));
     TRY(take_words(s, g, first_use));
     c.aa = aa;
@@ -369,10 +367,7 @@ int convert_cycle(Setup &s, int g)
     }
     axis(s.current, p.cc) = c.clear;
     s.motion_mode = g;
-    if (mode != CANON_EXACT_PATH) {
-        set_control_mode(s, mode, tolerance);
-        set_naivecam(s, naive);
-    }
+    exact_moves(s, false);
     return INTERP_OK;
 }
 

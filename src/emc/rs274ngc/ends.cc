@@ -184,16 +184,11 @@ void traverse(Setup &s, int line, const EmcPose &end)
 
 void move_indexer(Setup &s, int line, int n, const EmcPose &end)
 {
-    const CANON_MOTION_MODE mode = s.control_mode;
-    const double tolerance = s.tolerance, naive = s.naivecam_tolerance;
-    if (mode != CANON_EXACT_PATH) set_control_mode(s, CANON_EXACT_PATH, 0);
+    exact_moves(s, true);
     s.canon.UNLOCK_ROTARY(line, s.indexer_joint[n]);
     traverse(s, line, end);
     s.canon.LOCK_ROTARY(line, s.indexer_joint[n]);
-    if (mode != CANON_EXACT_PATH) {
-        set_control_mode(s, mode, tolerance);
-        set_naivecam(s, naive);
-    }
+    exact_moves(s, false);
 }
 
 } // namespace ngc

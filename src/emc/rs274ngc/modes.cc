@@ -74,17 +74,24 @@ int convert_lathe(Setup &s, int g)
     return INTERP_OK;
 }
 
-void set_control_mode(Setup &s, CANON_MOTION_MODE mode, double tolerance)
+static void set_control_mode(Setup &s, CANON_MOTION_MODE mode, double tolerance)
 {
     s.canon.SET_MOTION_CONTROL_MODE(mode, tolerance);
     s.control_mode = mode;
     s.tolerance = tolerance;
 }
 
-void set_naivecam(Setup &s, double tolerance)
+static void set_naivecam(Setup &s, double tolerance)
 {
     s.canon.SET_NAIVECAM_TOLERANCE(tolerance);
     s.naivecam_tolerance = tolerance;
+}
+
+void exact_moves(Setup &s, bool on)
+{
+    if (s.control_mode == CANON_EXACT_PATH) return;
+    s.canon.SET_MOTION_CONTROL_MODE(on ? CANON_EXACT_PATH : s.control_mode, on ? 0 : s.tolerance);
+    if (!on) s.canon.SET_NAIVECAM_TOLERANCE(s.naivecam_tolerance);
 }
 
 int convert_control_mode(Setup &s, int g)

@@ -120,8 +120,7 @@ void set_tool_parameters(Setup &s);
 [[nodiscard]] int convert_distance(Setup &s, int g);
 [[nodiscard]] int convert_ijk(Setup &s, int g);
 [[nodiscard]] int convert_retract(Setup &s, int g);
-void set_control_mode(Setup &s, CANON_MOTION_MODE mode, double tolerance);
-void set_naivecam(Setup &s, double tolerance);
+void exact_moves(Setup &s, bool on); // for a while, whatever path mode the program has set
 [[nodiscard]] int convert_comp(Setup &s, int g);    // comp.cc
 [[nodiscard]] int comp_off(Setup &s);
 [[nodiscard]] int convert_coord_system(Setup &s, int g); // offsets.cc

@@ -58,3 +58,20 @@ print("M2:", poll().gcodes[2], s.mcodes[1])
 for line in "G4 P0", "G1 X1 F0", "G4 P0", "G1 X[1/0]", "T2 M6", "G2 X3 F10", "M6 G2 X4":
     mdi(line)
     print(line, poll().gcodes[1:3], s.mcodes[3], messages())
+# A drilling cycle shows its code from its first move on. It ends its moves exactly, but the path mode is that of the
+# program, which stays in force after an abort.
+for path in "G64 P0.05", "G61.1":
+    program(f"G21 G90 G0 X0 Y0 Z1 F600\n{path}\nG83 X1 Y1 Z-4 R0.5 Q1\nX2\nG80\nM2\n")
+    seen = []
+    c.auto(AUTO_RUN, 0)
+    while s.motion_line < 4 or len(seen) < 2:
+        if poll().current_vel > 0.5 and s.motion_line > 2:
+            now = s.motion_line, s.gcodes[1], s.gcodes[11], round(s.settings[3], 3)
+            if now not in seen:
+                seen.append(now)
+        sleep(0.004)
+    c.abort()
+    c.wait_complete()
+    need(lambda s: s.interp_state == INTERP_IDLE and s.inpos, "end")
+    print(path, seen, "aborted:", s.gcodes[11], round(s.settings[3], 3))
+    print("a mistake:", run("G83 X3 Z-4 R0.5\nM2\n"), messages(), poll().gcodes[1])
