@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 import os
+from statistics import median
 
 import linuxcnc
 import operator_lib as lib
@@ -42,8 +43,8 @@ def script(op):
     for name in samples[-1]:
         kb = [s[name][0] for s in samples if name in s]
         middle = samples[LOOKS // 2].get(name)
-        # the least of five looks: a child that is started makes pages private for a while
-        if middle and (min(kb[-5:]) - min(kb[8:13]) > LIMIT_KB or samples[-1][name][1] > middle[1] + 2):
+        # the middle of five looks: a child that is started makes pages private, a new estimate takes room for a while
+        if middle and (median(kb[-5:]) - median(kb[8:13]) > LIMIT_KB or samples[-1][name][1] > middle[1] + 2):
             grown[name] = [s.get(name) for s in samples]
     if len(samples[-1]) > len(samples[LOOKS // 2]) + 2:
         grown["processes"] = [len(s) for s in samples]
