@@ -23,7 +23,7 @@ def line_starts(path):
 
 def shown(data):
     """A line as it is shown: tabs expanded, no line end."""
-    return data.decode(errors="replace").rstrip("\n").replace("\r", "").expandtabs()
+    return data.decode(errors="backslashreplace").rstrip("\n").replace("\r", "").expandtabs()
 
 
 class CodeView:

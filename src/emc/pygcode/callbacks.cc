@@ -93,8 +93,8 @@ class CallbackCanon final : public PreviewCanon
         units_per_degree = exact_float(c, "get_external_angular_units");
         mask = canon.attr("get_axis_mask")().cast<int>();
         get_tool = canon.attr("get_tool");
-        parameter_name =
-            py::hasattr(c, "parameter_file") ? c.attr("parameter_file").cast<std::string>() : "rs274ngc.var";
+        if (py::hasattr(c, "parameter_file"))
+            parameter_name = c.attr("parameter_file").cast<std::filesystem::path>().string();
     }
     Interp *interp = nullptr;
 
@@ -288,7 +288,7 @@ class CallbackCanon final : public PreviewCanon
         m_rotation, m_plane, m_feed_rate, m_change, m_offset, m_batch;
     double units_per_mm, units_per_degree;
     int mask;
-    std::string parameter_name;
+    std::string parameter_name = "rs274ngc.var";
     LineCode code{};
     int delivered = -1;
     bool batching = false, in_batch = false, feed_sent = false, preparing = false;

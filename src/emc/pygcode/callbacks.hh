@@ -8,6 +8,7 @@
 #define KERF_CALLBACKS_HH
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <string>
 #include <vector>

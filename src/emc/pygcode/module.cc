@@ -15,6 +15,19 @@ namespace py = pybind11;
 namespace
 {
 
+using Path = std::filesystem::path; // from Python as os.fsencode() has it: any bytes
+
+py::object decoded(const std::string &s, const char *errors)
+{
+    return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(s.data(), Py_ssize_t(s.size()), errors));
+}
+
+// Programs may hold any bytes; those that are no UTF-8 are shown escaped.
+py::object text(const std::string &s)
+{
+    return decoded(s, "backslashreplace");
+}
+
 // An array that Python (and numpy) may look into without a copy; the program keeps it alive.
 py::object view(const py::object &owner, const void *data, const char *format, size_t item,
                 std::vector<Py_ssize_t> shape)
@@ -66,16 +79,16 @@ std::vector<CANON_TOOL_TABLE> tool_list(const py::object &tools)
     return out;
 }
 
-std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &parameter_file, const py::object &init,
+std::shared_ptr<ProgramPath> load(const Path &file, const Path &parameter_file, const py::object &init,
                                   const py::object &tools, int axis_mask, double linear_units, double angular_units,
-                                  const std::string &ini, int arc_division, bool block_delete, const py::object &start,
+                                  const Path &ini, int arc_division, bool block_delete, const py::object &start,
                                   const py::object &progress, size_t max_vertices, const std::string &interpreter,
                                   bool keep_path, const std::string &hal_component)
 {
     ProgramOptions o;
     o.interpreter = interpreter;
-    o.parameter_file = parameter_file;
-    o.ini_file = ini;
+    o.parameter_file = parameter_file.string();
+    o.ini_file = ini.string();
     o.init_codes = text_list(init);
     o.tools = tool_list(tools);
     o.axis_mask = axis_mask;
@@ -99,7 +112,7 @@ std::shared_ptr<ProgramPath> load(const std::string &file, const std::string &pa
     };
     {
         py::gil_scoped_release free;
-        read_program(*path, file, o, ask);
+        read_program(*path, file.string(), o, ask);
     }
     return path;
 }
@@ -179,7 +192,7 @@ template <size_t N, class T> py::tuple as_tuple(const T (&values)[N])
     return t;
 }
 
-py::tuple parse(const std::string &file, const py::object &canon, const py::object &codes, const py::object &second,
+py::tuple parse(const Path &file, const py::object &canon, const py::object &codes, const py::object &second,
                 const py::object &third)
 {
     std::vector<std::string> init;
@@ -192,7 +205,7 @@ py::tuple parse(const std::string &file, const py::object &canon, const py::obje
         if (!second.is_none()) init.push_back(second.cast<std::string>());
         if (!third.is_none()) library = third.cast<std::string>();
     }
-    return parse_with_callbacks(file, canon, init, library);
+    return parse_with_callbacks(file.string(), canon, init, library);
 }
 
 void bind_linecode(py::module_ &m)
@@ -286,28 +299,32 @@ void bind_program(py::module_ &m)
     }, py::arg("user_m"), "The marks of a kind as rows of four float32: x, y, z in inches, plane.");
     c.def("release_path", &ProgramPath::release_path,
           "Frees positions, lines and kinds, of which no view may be left; lengths, extents, times and marks stay.");
-    c.def_readonly("messages", &ProgramPath::messages);
+    c.def_property_readonly("messages", [](const ProgramPath &p) {
+        py::list l;
+        for (const std::string &message : p.messages) l.append(text(message));
+        return l;
+    });
     c.def_readonly("result", &ProgramPath::result);
     c.def_readonly("last_line", &ProgramPath::last_line);
-    c.def_readonly("error", &ProgramPath::error);
+    c.def_property_readonly("error", [](const ProgramPath &p) { return text(p.error); });
     c.def_readonly("aborted", &ProgramPath::aborted);
     c.def_readonly("thinned", &ProgramPath::thinned, "1, or n when about every n-th piece was kept.");
     c.def_readonly("foam_z", &ProgramPath::foam_z,
                    "Height of the XY plane of a foam cutter that the program gave, inches, or None.");
     c.def_readonly("foam_w", &ProgramPath::foam_w, "Height of its UV plane.");
     c.def_readonly("notify", &ProgramPath::notify);
-    c.def_readonly("notify_message", &ProgramPath::notify_message);
+    c.def_property_readonly("notify_message", [](const ProgramPath &p) { return text(p.notify_message); });
     c.def_property_readonly("fault", [](const ProgramPath &p) -> py::object {
         if (p.error.empty()) return py::none();
         py::dict d;
-        d["file"] = p.fault.file;
+        d["file"] = decoded(p.fault.file, "surrogateescape");
         d["line"] = p.fault.line;
         d["column"] = p.fault.column;
         d["length"] = p.fault.length;
-        d["text"] = p.fault.text;
-        d["what"] = p.fault.what;
-        d["fix"] = p.fault.fix;
-        d["report"] = p.fault.report();
+        d["text"] = text(p.fault.text);
+        d["what"] = text(p.fault.what);
+        d["fix"] = text(p.fault.fix);
+        d["report"] = text(p.fault.report());
         return d;
     });
 }
@@ -326,7 +343,7 @@ PYBIND11_MODULE(gcode, m)
           "parse(filename, canon[, unitcode[, initcode[, interpname]]]) or\n"
           "parse(filename, canon, initcodes[, interpname]) -> (result, last line)\n\n"
           "Calls the canon's methods with inches and degrees. A result above MIN_ERROR is an error.");
-    m.def("strerror", &last_error, py::arg("code"), "Text of the last parse's error.");
+    m.def("strerror", [](int code) { return text(last_error(code)); }, py::arg("code"), "Text of the last parse's error.");
     m.def("arc_to_segments", &arc_to_segments, py::arg("canon"), py::arg("x1"), py::arg("y1"), py::arg("cx"),
           py::arg("cy"), py::arg("rot"), py::arg("z1"), py::arg("a"), py::arg("b"), py::arg("c"), py::arg("u"),
           py::arg("v"), py::arg("w"), py::arg("max_segments") = 128);

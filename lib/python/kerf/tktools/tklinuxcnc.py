@@ -515,7 +515,7 @@ class Window:
         if s.file != self.loaded:
             self.loaded = s.file
             try:
-                text = Path(s.file).read_text(errors="replace") if s.file else ""
+                text = Path(s.file).read_text(errors="backslashreplace") if s.file else ""
             except OSError as error:
                 text = f"{s.file}: {error.strerror}"
             self.text.configure(state="normal")

@@ -49,10 +49,12 @@ py::object to_python(double v) { return py::float_(v); }
 template <class T> std::enable_if_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, py::object> to_python(T v) {
     return py::int_(v);
 }
-template <size_t N> py::object to_python(const char (&v)[N]) {
+// errors: how bytes come that are no UTF-8.
+template <size_t N> py::object decoded(const char (&v)[N], const char *errors) {
     return py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(v, static_cast<Py_ssize_t>(strnlen(v, N)), "replace"));
+        PyUnicode_DecodeUTF8(v, static_cast<Py_ssize_t>(strnlen(v, N)), errors));
 }
+template <size_t N> py::object to_python(const char (&v)[N]) { return decoded(v, "backslashreplace"); }
 template <class T, size_t N> py::object to_python(const T (&v)[N]) {
     py::tuple t(N);
     for (size_t i = 0; i < N; i++) t[i] = to_python(v[i]);
@@ -138,8 +140,11 @@ struct PropertyMaker {
             std::ptrdiff_t at = reinterpret_cast<const char *>(&member) - reinterpret_cast<const char *>(&base);
             cls.def_property_readonly(
                 f.attribute,
-                [at](const Stat &s) {
-                    return to_python(*reinterpret_cast<const T *>(reinterpret_cast<const char *>(&s.data) + at));
+                [at, is_file = strstr(f.attribute, "file") != nullptr](const Stat &s) {
+                    const T &v = *reinterpret_cast<const T *>(reinterpret_cast<const char *>(&s.data) + at);
+                    if constexpr (std::is_same_v<std::remove_extent_t<T>, char>)
+                        if (is_file) return decoded(v, "surrogateescape"); // it can be opened
+                    return to_python(v);
                 },
                 f.doc);
         }
@@ -275,10 +280,10 @@ template <class M, class V, V M::*FIELD> void one_value(Command &c, V v) {
 // Bytes of a str (UTF-8) or bytes object. Raises UnicodeEncodeError for what is no text.
 std::string text_of(const py::handle &o) {
     if (py::isinstance<py::bytes>(o)) return o.cast<std::string>();
-    Py_ssize_t size = 0;
-    const char *utf8 = PyUnicode_AsUTF8AndSize(o.ptr(), &size);
-    if (!utf8) throw py::error_already_set();
-    return std::string(utf8, static_cast<size_t>(size));
+    const auto bytes = py::reinterpret_steal<py::object>(
+        PyUnicode_AsEncodedString(o.ptr(), "utf-8", "surrogateescape"));
+    if (!bytes) throw py::error_already_set();
+    return bytes.cast<std::string>();
 }
 
 void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
