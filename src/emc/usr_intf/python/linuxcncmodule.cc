@@ -278,10 +278,10 @@ template <class M, class V, V M::*FIELD> void one_value(Command &c, V v) {
 }
 
 // Bytes of a str (UTF-8) or bytes object. Raises UnicodeEncodeError for what is no text.
-std::string text_of(const py::handle &o) {
+// errors: "surrogateescape" for names of files, which may have any bytes.
+std::string text_of(const py::handle &o, const char *errors = "strict") {
     if (py::isinstance<py::bytes>(o)) return o.cast<std::string>();
-    const auto bytes = py::reinterpret_steal<py::object>(
-        PyUnicode_AsEncodedString(o.ptr(), "utf-8", "surrogateescape"));
+    const auto bytes = py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(o.ptr(), "utf-8", errors));
     if (!bytes) throw py::error_already_set();
     return bytes.cast<std::string>();
 }
@@ -293,7 +293,7 @@ void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
         throw py::type_error("function takes exactly 1 argument (" + std::to_string(args.size()) + " given)");
     if (!py::isinstance<py::str>(args[0]))
         throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
-    std::string file = text_of(args[0]);
+    std::string file = text_of(args[0], "surrogateescape");
     if (file.size() >= LINELEN) throw py::value_error("File name limited to 254 characters");
     EMC_TASK_PLAN_OPEN m;
     copy_text(m.file, file.c_str());
