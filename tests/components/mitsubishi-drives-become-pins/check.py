@@ -92,7 +92,8 @@ vfd = DriveProgram("mitsub_vfd", "--port", LINK, "-b", "19200", "spindle=03", "p
 print(pins("spindle.*"))
 print(halcmd("list", "comp").count("pump"), vfd.all("fwd scale-cmd scale-fb scale-amps scale-volts scale-user"))
 until(lambda: ("FA", "00") in drive.told, "what a killed program left running stops")
-print(drive.told[0], drive.told[1:3], "asked:", [command for command in drive.asked if command != "6F"])
+until(lambda: ("F3", "0E") in drive.told, "the special monitor is chosen")
+print(drive.told[0], "asked:", [command for command in drive.asked if command != "6F"])
 vfd.set(monitor=1)
 until(lambda: vfd.is_true("up-to-speed") and vfd.get("motor-user") == "42", "monitored")
 print({name: round(float(vfd.get("motor-" + name)), 6) for name in ("fb", "amps", "volts", "power")},

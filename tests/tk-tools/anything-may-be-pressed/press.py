@@ -6,12 +6,14 @@ from types import SimpleNamespace
 import tk_monkey
 sys.path.insert(0, str(Path(tk_monkey.__file__).resolve().parents[2] / "src/hal/user_comps"))
 import hal
+import pmx485_test
 import sim_pin
 from kerf import tkstyle
 from kerf.haltools import latency_view
 from kerf.tktools import emccalib, halmeter, halshow, mdro, ngcgui, tooledit
 from kerf.tktools.calibration import Calibration
 from kerf.tktools.tooltable import Table
+from powermax import Powermax
 
 Path("w.halshow").write_text("pin+siggen.0.sine sig+freebit nothing pin+no.such\n")
 Path("pocket.ngc").write_text("(info: x)\no<pocket> sub\n#<a> = #1 (=1)\n#<b> = #2\no<pocket> endsub\n")
@@ -58,6 +60,7 @@ PROGRAMS = {
     "sim_pin": lambda root: sim_pin.Window(root, "Pins",
                                            [(sim_pin.Item("freebit"), "hold", True),
                                             (sim_pin.Item("count"), "toggle", True)]),
+    "pmx485-test": lambda root: pmx485_test.Window(root, Powermax().path),
     "halshow": lambda root: halshow.Window(root, halshow.Preferences(Path("prefs"))),
 }
 seed = int(os.environ.get("SEED", "1"))

@@ -17,6 +17,7 @@ import hal
 import linuxcnc
 from PIL import Image
 import moveoff_gui
+import pmx485_test
 import sim_pin
 import simulate_probe
 from kerf import launch_windows, pickconfig, relief, tkstyle
@@ -116,6 +117,14 @@ def moved_off(root):
     window.popup(5, lambda: None)
 
 
+def cutter(root):
+    window = pmx485_test.Window(root, "/dev/ttyUSB0")
+    window.cutter = SimpleNamespace(answers=lambda: True, value=lambda register: 2.0, arc_s=lambda: 3723,
+                                    look=lambda: None, close=lambda: None)
+    window.show()
+    window.say(pmx485_test._("The cutter is controlled from here."))
+
+
 component = hal.component("mdro")
 for i in range(3):
     component.newpin(f"index-enable.{i}", hal.HAL_BIT, hal.HAL_IO)
@@ -134,6 +143,7 @@ PROGRAMS = {
                                                  "t.hal", "machine.ini"),
     "image-to-gcode": lambda root: image_to_gcode.Window(root, Image.new("L", (40, 30)), "a.png", relief.Settings()),
     "mdro": lambda root: mdro.Window(root, mdro.Readout(list("XYZ"), lambda i: 1.25, "inch"), component, 20),
+    "pmx485-test": cutter,
 }
 if "untranslated" in sys.argv:
     fit_check.show_untranslated(PROGRAMS)
