@@ -549,7 +549,7 @@ template <class T> void TaskCanon::fill_speed(T *m, int spindle) {
         double k =
             units_ == CANON_UNITS_INCHES ? 12 / (2 * M_PI) * s.speed * (25.4 * u) : 1000 / (2 * M_PI) * s.speed * u;
         s.css_factor = s.dir * k;
-        m->speed = s.dir * s.css_maximum;
+        m->speed = s.speed != 0 ? s.dir * s.css_maximum : 0; // a factor of 0 means constant speed
         m->factor = s.css_factor;
         m->xoffset = x_offset();
     } else {
@@ -566,7 +566,7 @@ void TaskCanon::SET_SPINDLE_MODE(int spindle, double css_max) {
 void TaskCanon::SET_SPINDLE_SPEED(int spindle, double speed) {
     flush();
     if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES) return;
-    if (speed != 0) spindle_[static_cast<size_t>(spindle)].speed = std::fabs(speed);
+    spindle_[static_cast<size_t>(spindle)].speed = std::fabs(speed);
     EMC_SPINDLE_SPEED m;
     fill_speed(&m, spindle);
     emit(m);

@@ -54,6 +54,12 @@ for call in ("o<probe> call [3]", "o<probe> call [2]", "o<saved> call"):
     mdi("G90 S800")
     show("an S word after that")
 mdi("M5 M9")
+# S0 is a speed of 0, also for the next start and for a spindle that turns.
+for lines in (("S800", "M3", "M5", "M3 S0"), ("S300",), ("S0",), ("S0 M4",), ("M5 S600", "S0", "G96 D500 S50 M3", "S0"),
+              ("G97 M5",)):
+    for line in lines:
+        mdi(line)
+    show("; ".join(lines))
 # FP-079: until a change is confirmed no spindle starts, the first time and later.
 halcmd("unlinkp", "iocontrol.0.tool-changed")
 for number in (1, 2):
