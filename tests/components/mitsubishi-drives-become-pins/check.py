@@ -2,78 +2,13 @@
 """mitsub_vfd with two drives of its protocol on a pty: pins, both directions, speed, monitoring, emergency stop, faults
 of drive and line, a lost line, the end, command line."""
 import os
-import pty
-import re
 import signal
-import threading
-import tty
 
 from drive_program import DriveProgram, refusals, stands, starts, wait
 from hal_outside import halcmd, pins, until
+from mitsubishi_line import Drive, Line
 
-DATA = {"7A": 0, "6F": 0, "70": 0, "71": 0, "72": 0, "F3": 2, "FA": 2, "ED": 4, "FD": 4}
 LINK = "line"
-
-
-def checksum(text):
-    return b"%02X" % (sum(text) & 0xFF)
-
-
-class Drive:
-    def __init__(self):
-        self.values = {"7A": "00", "6F": "0BB8", "70": "00FA", "71": "0898", "72": "002A"}
-        self.told, self.asked, self.turns = [], [], "00"
-        self.silent = self.broken = self.refuses = False
-
-    def answer(self, station, command, data):
-        if not DATA[command]:
-            self.asked.append(command)
-            text = station + self.values[command].encode()
-            return b"\x02" + text + b"\x03" + (b"??" if self.broken else checksum(text))
-        if self.refuses:
-            return b"\x15" + station + b"A"
-        self.told.append((command, data))
-        if command == "FA":
-            self.turns = data
-        return b"" if command == "FD" else b"\x06" + station
-
-
-class Line:
-    def __init__(self, drives):
-        self.drives = drives
-        self.plug()
-
-    def plug(self):
-        self.end, self.other = pty.openpty()
-        tty.setraw(self.end)
-        tty.setraw(self.other)
-        if os.path.islink(LINK):
-            os.unlink(LINK)
-        os.symlink(os.ttyname(self.other), LINK)
-        threading.Thread(target=self.serve, args=(self.end,), daemon=True).start()
-
-    def unplug(self):
-        os.unlink(LINK)
-        os.close(self.other)
-        os.close(self.end)
-
-    def serve(self, end):
-        data = b""
-        try:
-            while more := os.read(end, 256):
-                data += more
-                while frame := re.match(rb"\x05(..)(..)1", data):
-                    station, command = frame.group(1), frame.group(2).decode()
-                    size = frame.end() + DATA[command] + 2
-                    if len(data) < size:
-                        break
-                    text, data = data[1:size], data[size:]
-                    assert checksum(text[:-2]) == text[-2:]
-                    drive = self.drives.get(station)
-                    if drive and not drive.silent:
-                        os.write(end, drive.answer(station, command, text[5:-2].decode()))
-        except OSError:
-            pass
 
 
 def turns(drive):
@@ -87,7 +22,7 @@ def run(what):
 drive, pump = Drive(), Drive()
 drive.turns = "02"                                              # left running
 drive.values["7A"] = "08"
-line = Line({b"03": drive, b"11": pump})
+line = Line(LINK, {b"03": drive, b"11": pump})
 vfd = DriveProgram("mitsub_vfd", "--port", LINK, "-b", "19200", "spindle=03", "pump=11", component="spindle")
 print(pins("spindle.*"))
 print(halcmd("list", "comp").count("pump"), vfd.all("fwd scale-cmd scale-fb scale-amps scale-volts scale-user"))
