@@ -31,7 +31,7 @@ RTAPI_MP_ARRAY_STRING(fmt_strings, MAX_DISPLAYS, "pages of each display, separat
 /* A value in a page. */
 struct format {
     char type;                          /* f d u x o c b, or % */
-    char plus, zero, space;
+    char plus, zero;
     int width, precision;               /* 0 and -1: not given */
     unsigned char when_true, when_false;
     hal_refs_u pin;
@@ -45,7 +45,7 @@ struct page {
 };
 
 struct display {
-    int pages, page, place, delay;
+    int pages, page, place, delay;      /* page: -1 until one is shown */
     struct page *content;
     unsigned char queue[QUEUE];         /* bytes that are to be sent first */
     int queued, sent;
@@ -66,29 +66,33 @@ static void enqueue(struct display *d, const unsigned char *bytes, int n)
 }
 
 /* Digits of a number, most significant first; returns how many. */
-static int digits_of(rtapi_u64 number, unsigned base, char upper, char *buf)
+static int digits_of(rtapi_u64 number, unsigned base, char *buf)
 {
     char reversed[24];
     int n = 0, i;
     do {
         unsigned digit = (unsigned)(number % base);
-        reversed[n++] = (char)(digit < 10 ? '0' + digit : (upper ? 'A' : 'a') + digit - 10);
+        reversed[n++] = (char)(digit < 10 ? '0' + digit : 'A' + digit - 10);
         number /= base;
     } while(number);
     for(i = 0; i < n; i++) buf[i] = reversed[n - 1 - i];
     return n;
 }
 
-/* Places sign and digits in a field; one that is too small is filled with stars. */
+/* Places sign and digits in a field. One that is too small keeps its first place, of a number
+ * the sign alone, and is filled with stars. */
 static void put_field(struct display *d, const struct format *f, int negative, const char *digits, int n)
 {
     unsigned char field[MAX_WIDTH];
-    char sign = negative ? '-' : f->plus ? '+' : f->space ? ' ' : 0;
-    int length = n + (sign != 0), width = f->width ? f->width : length, at = 0, i;
+    char sign = negative ? '-' : f->plus ? '+' : 0;
+    int length = n + (sign != 0), at = 0, i;
+    /* A float keeps the place of its point even without decimals. */
+    int width = f->width ? f->width : length + (f->type == 'f' && f->precision == 0);
     if(width > MAX_WIDTH) width = MAX_WIDTH;
     if(length > width) {
         for(i = 0; i < width; i++) field[i] = '*';
-        if(f->type == 'f' && width > 0) field[0] = (unsigned char)(sign ? sign : digits[0]);
+        if(sign) field[0] = (unsigned char)sign;
+        else if(f->type == 'f') field[0] = (unsigned char)digits[n - width];
     } else {
         int pad = width - length;
         if(f->zero && sign) field[at++] = (unsigned char)sign;
@@ -108,7 +112,7 @@ static void put_float(struct display *d, const struct format *f)
     for(i = 0; i < precision; i++) unit *= 10;
     scaled = size * (double)unit + 0.5;
     number = scaled < 1.8e19 ? (rtapi_u64)scaled : RTAPI_UINT64_MAX;
-    n = digits_of(number / unit, 10, 0, digits);
+    n = digits_of(number / unit, 10, digits);
     if(precision) {
         digits[n++] = (char)hal_get_ui32(d->decimal_separator);
         for(i = 0; i < precision; i++) {
@@ -138,18 +142,18 @@ static void put_format(struct display *d, const struct format *f)
         break;
     case 'd': {
         rtapi_s64 value = hal_get_si32(f->pin.s);
-        put_field(d, f, value < 0, digits, digits_of((rtapi_u64)(value < 0 ? -value : value), 10, 0, digits));
+        put_field(d, f, value < 0, digits, digits_of((rtapi_u64)(value < 0 ? -value : value), 10, digits));
         break;
     }
     case 'u':
-        put_field(d, f, 0, digits, digits_of(hal_get_ui32(f->pin.u), 10, 0, digits));
+        put_field(d, f, 0, digits, digits_of(hal_get_ui32(f->pin.u), 10, digits));
         break;
     case 'x':
     case 'X':
-        put_field(d, f, 0, digits, digits_of(hal_get_ui32(f->pin.u), 16, f->type == 'X', digits));
+        put_field(d, f, 0, digits, digits_of(hal_get_ui32(f->pin.u), 16, digits));
         break;
     case 'o':
-        put_field(d, f, 0, digits, digits_of(hal_get_ui32(f->pin.u), 8, 0, digits));
+        put_field(d, f, 0, digits, digits_of(hal_get_ui32(f->pin.u), 8, digits));
         break;
     case 'c':
         put_char(d, f);
@@ -170,8 +174,9 @@ static void watch(struct display *d)
     static const unsigned char new_page[] = { 0x11, 0x1E, 0x1A };
     rtapi_u32 wanted = hal_get_ui32(d->page_num);
     double contrast = hal_get_real(d->contrast);
-    if((int)wanted != d->page && wanted < (rtapi_u32)d->pages) {
-        d->page = (int)wanted;
+    int page = wanted < (rtapi_u32)d->pages ? (int)wanted : d->page < 0 ? 0 : d->page;
+    if(page != d->page) {
+        d->page = page;
         d->place = 0;
         enqueue(d, new_page, sizeof new_page);
     }
@@ -185,7 +190,8 @@ static void watch(struct display *d)
 
 static rtapi_u32 next_byte(struct display *d)
 {
-    static const unsigned char home[] = { 0x1B, 0x3D, 0x20, 0x20 };
+    /* After the 0 that ends the page. */
+    static const unsigned char home[] = { 0, 0x1B, 0x3D, 0x20, 0x20 };
     const struct page *p;
     if(d->sent == d->queued) watch(d);
     if(d->sent == d->queued) {
@@ -285,8 +291,7 @@ static int add_format(struct page *p, const char **at, int n, int page)
     struct format *f = &p->format[p->formats];
     const char *text = *at + 1;
     f->precision = -1;
-    for(; *text && strchr(" 0+", *text); text++) {
-        if(*text == ' ') f->space = 1;
+    for(; *text && strchr(" 0+-#", *text); text++) {
         if(*text == '0') f->zero = 1;
         if(*text == '+') f->plus = 1;
     }
@@ -294,6 +299,7 @@ static int add_format(struct page *p, const char **at, int n, int page)
     if(*text == '.')
         for(text++, f->precision = 0; isdigit((unsigned char)*text); text++)
             if(f->precision < 1000) f->precision = f->precision * 10 + (*text - '0');
+    while(*text == 'l' || *text == 'h') text++;
     f->type = *text;
     if(f->type == 'F') f->type = 'f';
     if(f->type == 'i') f->type = 'd';
@@ -340,6 +346,7 @@ static int export_display(int n)
         return -EINVAL;
     }
     d->delay = START_DELAY;
+    d->page = -1;
     d->content = hal_malloc((long)sizeof *d->content * d->pages);
     if(!d->content) return -ENOMEM;
     for(i = 0; i < d->pages; i++) {
