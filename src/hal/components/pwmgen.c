@@ -130,7 +130,7 @@ static void limit_duty_cycle(struct channel *c, double *min, double *max)
 static enum mode wanted_mode(const struct channel *c, double freq)
 {
     if(!hal_get_bool(c->enable)) return MODE_OFF;
-    if(!(freq > 0)) return MODE_PDM;
+    if(freq == 0) return MODE_PDM;
     return hal_get_bool(c->dither) ? MODE_DITHER : MODE_PURE;
 }
 
@@ -141,6 +141,7 @@ static void set_cycle(struct channel *c, enum mode mode, rtapi_s32 base)
     if(!(freq > 0)) {
         hal_set_real(c->freq, 0);
         c->pulse_ns = base;
+        c->periods = 0;
         return;
     }
     if(freq < 0.5) freq = 0.5;
@@ -187,7 +188,7 @@ static void update_channel(struct channel *c, rtapi_s32 base, int base_changed)
     if(mode == MODE_PURE) {
         int high = real_to_s32(c->periods * size + 0.5);
         c->high_ns = high * base;
-        size = (double)high / c->periods;
+        size = high ? (double)high / c->periods : 0;
         hal_set_real(c->curr_dc, reverse ? -size : size);
     } else {
         c->high_ns = real_to_s32(c->pulse_ns * size + 0.5);
