@@ -109,8 +109,9 @@ class LooksPart:
             else:
                 break
             self.restyle()
-        asked, room = self.asked(), tkfit.room_of(root)
-        self.more_code(room[1] - asked[1])
+        room = tkfit.room_of(root)
+        self.more_code(room[1] - self.asked()[1])
+        asked = self.asked()
         root.minsize(*map(min, asked, room))
         if root.winfo_ismapped():
             tkfit.enlarge(root, asked)
