@@ -283,6 +283,7 @@ private:
 
     // INI
     double max_feed_override_ = 1, min_spindle_override_ = 0, max_spindle_override_ = 1;
+    double highest_velocity_ = 1e99; // units per second
     int joints_ = 3, spindles_ = 1, axis_mask_ = 0;
     bool home_all_exists_ = false;
     std::vector<std::string> mdi_commands_;
@@ -330,6 +331,7 @@ bool Halui::read_ini(const std::string &file) {
     positive("MAX_FEED_OVERRIDE", &max_feed_override_);
     positive("MIN_SPINDLE_OVERRIDE", &min_spindle_override_);
     positive("MAX_SPINDLE_OVERRIDE", &max_spindle_override_);
+    if (auto r = ini.findReal("MAX_LINEAR_VELOCITY", "TRAJ"); r && *r > 0) highest_velocity_ = *r;
     std::string coordinates = ini.findStringV("COORDINATES", "TRAJ", "");
     for (char c : coordinates)
         for (int i = 0; i < EMCMOT_MAX_AXIS; i++)
@@ -514,7 +516,7 @@ void Halui::commands() {
     if (delete_off_.rose()) block_delete(false);
 
     double v;
-    if (max_velocity_.wanted(stat_.motion.traj.maxVelocity, 0, 1.0, &v)) {
+    if (max_velocity_.wanted(stat_.motion.traj.maxVelocity, 0, highest_velocity_, &v)) {
         EMC_TRAJ_SET_MAX_VELOCITY m;
         m.velocity = v;
         give(m);
