@@ -111,8 +111,8 @@ int rtapi_app_main(void)
 {
     int r;
     if(num_chan < 1 || num_chan > MAX_CHAN) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "COUNTER: ERROR: invalid number of channels: %d\n", num_chan);
-        return -1;
+        rtapi_print_msg(RTAPI_MSG_ERR, "COUNTER: ERROR: invalid num_chan: %d\n", num_chan);
+        return -EINVAL;
     }
     comp_id = hal_init("counter");
     if(comp_id < 0) return comp_id;

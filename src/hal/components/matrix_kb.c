@@ -104,7 +104,7 @@ static int parse_size(struct keyboard *k, const char *text)
     if(k->rows < 1 || k->columns < 1) goto bad;
     if(k->columns > MAX_COLUMNS) {
         rtapi_print_msg(RTAPI_MSG_ERR, "matrix_kb: maximum number of columns is %d. Sorry\n", MAX_COLUMNS);
-        return -EINVAL;
+        return -1;
     }
     for(k->row_shift = 1; 1 << k->row_shift < k->columns; k->row_shift++) {}
     k->key_down = 0xC0;
@@ -116,7 +116,7 @@ static int parse_size(struct keyboard *k, const char *text)
     return 0;
 bad:
     rtapi_print_msg(RTAPI_MSG_ERR, "matrix_kb: Invalid size format. should be NxN\n");
-    return -EINVAL;
+    return -1;
 }
 
 static int export_scanning(struct keyboard *k, const char *name)
@@ -168,7 +168,7 @@ int rtapi_app_main(void)
     }
     if(named && named != count) {
         rtapi_print_msg(RTAPI_MSG_ERR, "matrix_kb: Number of sizes and number of names must match\n");
-        return -EINVAL;
+        return -1;
     }
     comp_id = hal_init("matrix_kb");
     if(comp_id < 0) return comp_id;

@@ -60,26 +60,26 @@ static inline int mux_parse(struct mux *m, const char *text, const char *module,
             : HAL_TYPE_UNSPECIFIED;
         if(type == HAL_TYPE_UNSPECIFIED) {
             rtapi_print_msg(RTAPI_MSG_ERR, "%s: invalid character in fmt string\n", module);
-            return -EINVAL;
+            return -1;
         }
         if(types == 2) {
             rtapi_print_msg(RTAPI_MSG_ERR, "%s: too many type specifiers in fmt string\n", module);
-            return -EINVAL;
+            return -1;
         }
         if(types++ == 0) m->in_type = type;
         m->out_type = type;
     }
     if(m->entries < 1) {
         rtapi_print_msg(RTAPI_MSG_ERR, "%s: No entry count given\n", module);
-        return -EINVAL;
+        return -1;
     }
     if(m->entries < 2) {
         rtapi_print_msg(RTAPI_MSG_ERR, "%s: A one-element %s makes no sense\n", module, what);
-        return -EINVAL;
+        return -1;
     }
     if(types == 0) {
         rtapi_print_msg(RTAPI_MSG_ERR, "%s: No type specifiers in fmt string\n", module);
-        return -EINVAL;
+        return -1;
     }
     /* Selection bits: for a power of two of entries, or one entry more. */
     for(m->bits = 0; 1 << (m->bits + 1) <= m->entries; m->bits++) {}

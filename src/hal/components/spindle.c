@@ -189,7 +189,7 @@ static int export_all(int n)
         if(names[i] && names[i][0]) rtapi_snprintf(name, sizeof name, "%s", names[i]);
         else rtapi_snprintf(name, sizeof name, "spindle.%d", i);
         if(numgears[i] < 1 || numgears[i] > MAX_GEARS) {
-            rtapi_print_msg(RTAPI_MSG_ERR, "%s: Number of gears is out of range\n", name);
+            rtapi_print_msg(RTAPI_MSG_ERR, "Number of gears is out of range\n");
             return -EINVAL;
         }
         COMP_TRY(export_spindle(i, name));

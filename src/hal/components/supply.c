@@ -62,7 +62,7 @@ int rtapi_app_main(void)
 {
     int r;
     if(num_chan < 1 || num_chan > MAX_CHAN) {
-        rtapi_print_msg(RTAPI_MSG_ERR, "SUPPLY: ERROR: invalid number of channels: %d\n", num_chan);
+        rtapi_print_msg(RTAPI_MSG_ERR, "SUPPLY: ERROR: invalid num_chan: %d\n", num_chan);
         return -1;
     }
     comp_id = hal_init("supply");

@@ -16,7 +16,7 @@ MODULE_DESCRIPTION("Weighted sums of bits");
 #define MAX_SUMS 8
 #define MAX_BITS 1024
 
-static int wsum_sizes[MAX_SUMS];
+static int wsum_sizes[MAX_SUMS] = { [0 ... MAX_SUMS - 1] = -1 };     /* -1: none */
 RTAPI_MP_ARRAY_INT(wsum_sizes, MAX_SUMS, "number of bits of each sum");
 
 struct bit {
@@ -80,7 +80,7 @@ static int export_all(void)
 int rtapi_app_main(void)
 {
     int r;
-    for(sums = 0; sums < MAX_SUMS && wsum_sizes[sums]; sums++) {
+    for(sums = 0; sums < MAX_SUMS && wsum_sizes[sums] != -1; sums++) {
         if(wsum_sizes[sums] < 1 || wsum_sizes[sums] > MAX_BITS) {
             rtapi_print_msg(RTAPI_MSG_ERR, "WEIGHTED_SUM: ERROR: Invalid number of bits '%i' for summer %i\n",
                             wsum_sizes[sums], sums);

@@ -6,7 +6,7 @@ what is documented for configurations: none may ever change.
 
 A line for each instance: `LOAD | INSTANCE: NAME TYPE DIRECTION[=DEFAULT], ... | FUNCTIONS`,
 types and directions as in the manual pages, defaults of 0 left out; `..N`: N numbered alike.
-A load that fails prints what it says."""
+A load that fails prints what it says, and its error."""
 
 from __future__ import annotations
 
@@ -25,25 +25,26 @@ LOADS = {
     "bitmerge": ["personality=3", ""], "bitslice": ["personality=3"],
     "boss_plc": ["", "debug=1 count=2"],
     "carousel": ["", "pockets=8,24,6 encoding=gray,index,single num_sense=4 dir=1"],
-    "counter": ["", "num_chan=2"], "debounce": ["cfg=2,1", "", "cfg=51"],
+    "counter": ["", "num_chan=2", "num_chan=9"], "debounce": ["cfg=2,1", "", "cfg=51"],
     "demux": ["", "personality=2"],
-    "demux_generic": ["config=bb4,ff2,su2,us3", ""], "mux_generic": ["config=bb4,ff2,su2,us3", "", "config=b1"],
+    "demux_generic": ["config=bb4,ff2,su2,us3", ""], "mux_generic": ["config=bb4,ff2,su2,us3", "", "config=b1", "config=ff", "config=8", "config=ffb8"],
     "encoder": ["", "names=a,b", "num_chan=1 names=a", "num_chan=9"],
     "encoder_ratio": ["", "num_chan=2", "names=a"], "enum": ["enums=E;A;B;;C,D;X;Y", "enums=E;A names=key"],
     "gantry": ["personality=2"], "histobinstream": ["keys=777"], "joint_axis_mapper": ["coord=xyy", ""],
     "latencybinstream": ["keys=778"], "lcd": ["fmt_strings=%f%d|%u%b10,%x"], "limit_axis": ["", "personality=3"],
     "lincurve": ["", "personality=3"], "logic": ["personality=0x1f02,0x103"],
-    "matrix_kb": ["config=2x2s,2x11", "config=1x2 names=keys", "config=2"], "max31855": ["personality=2"],
+    "matrix_kb": ["config=2x2s,2x11", "config=1x2 names=keys", "config=2", "config=3x40s",
+                  "config=1x2,2x1 names=a"], "max31855": ["personality=2"],
     "message": ["names=a messages=text"], "modmath": ["", "mod_dir=2"], "moveoff": ["names=mv personality=2", ""],
     "multiswitch": ["", "cfg=2,3"], "output_buffer": ["personality=2"], "pid": ["", "num_chan=1 debug=1", "names=x"],
     "pushmsg": ["msgs=i|name|text.{f:value}", ""], "pwmgen": ["output_type=0,1,2", "", "output_type=3"],
     "radiobutton": ["personality=2"], "sampler": ["depth=4,4 cfg=fbsulk,r", "", "depth=4 cfg=x"],
     "siggen": ["", "num_chan=2", "names=wave"], "sim_encoder": ["", "names=a"], "sim_parport": ["names=parport.0"],
-    "spindle": ["", "numgears=2"],
+    "spindle": ["", "numgears=2", "numgears=17"],
     "stepgen": ["step_type=0,1,2,4,5,11 ctrl_type=p,v,,V", "step_type=15 user_step_type=1,2", "", "step_type=16",
                 "step_type=0 ctrl_type=x"],
-    "streamer": ["depth=4 cfg=fbsulk", ""], "supply": ["", "num_chan=2"],
-    "watchdog": ["num_inputs=2", "", "num_inputs=33"], "weighted_sum": ["wsum_sizes=2,1", ""],
+    "streamer": ["depth=4 cfg=fbsulk", ""], "supply": ["", "num_chan=2", "num_chan=0"],
+    "watchdog": ["num_inputs=2", "", "num_inputs=33"], "weighted_sum": ["wsum_sizes=2,1", "", "wsum_sizes=0,1", "wsum_sizes=1,-1"],
     "classicladder_rt": ["", "numPhysInputs=2 numPhysOutputs=1 numS32in=1 numS32out=1 numFloatIn=1 numFloatOut=1"],
 }
 ALSO = ["classicladder_rt", "sampler", "streamer"]
@@ -96,7 +97,9 @@ def show(session: Session, folder: str, name: str, options: str) -> None:
     load = f"{name} {options}".strip()
     said = len(host_output(folder))
     if session.command(folder, "halcmd", "loadrt", name, *options.split())[0]:
-        print(f"{load} | fails: {host_output(folder)[said:].splitlines()[0]}")
+        says = host_output(folder)[said:]
+        number = re.search(r"rtapi_app_main: .* (\(-\d+\))", says)
+        print(f"{load} | fails: {says.splitlines()[0]} {number[1] if number else ''}".rstrip())
         return
     functions = [line.split()[-1] for line in session.command(folder, "halcmd", "-s", "show", "funct")[1].splitlines()
                  if len(line.split()) > 4]
