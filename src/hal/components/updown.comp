@@ -33,6 +33,6 @@ if(wrap) {
     else if(n < min) n = max;
 } else if(clamp) {
     if(n > max) n = max;
-    if(n < min) n = min;
+    else if(n < min) n = min;
 }
 count = (rtapi_s32)n;
