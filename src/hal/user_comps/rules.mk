@@ -18,16 +18,17 @@ $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
 $(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 
 # Programs in C++.
-$(eval $(call program,hy_vfd,src/hal/user_comps/vfd/hy_vfd.cc src/hal/user_comps/vfd/hycomm.cc,linuxcnchal,-Isrc/hal/user_comps))
+$(eval $(call program,hy_vfd,src/hal/user_comps/vfd/hy_vfd.cc src/hal/user_comps/vfd/hycomm.cc src/hal/user_comps/vfd/spindle_guard.cc,linuxcnchal,-Isrc/hal/user_comps))
 ifeq ($(HAVE_LIBMODBUS),yes)
 $(eval $(call program,mb2hal,src/hal/user_comps/mb2hal/mb2hal.cc src/hal/user_comps/mb2hal/config.cc,linuxcnchal linuxcncini $(LIBMODBUS_LIBS) -lpthread,$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
-$(eval $(call program,gs2_vfd,src/hal/user_comps/vfd/gs2_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
-$(eval $(call program,hy_gt_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
-$(eval $(call program,svd-ps_vfd,src/hal/user_comps/vfd/percent_vfd.cc,linuxcnchal $(LIBMODBUS_LIBS),))
-INI_DRIVE := src/hal/user_comps/vfd/ini_section.cc src/hal/user_comps/vfd/modbus_link.cc
+MODBUS_DRIVE := src/hal/user_comps/vfd/modbus_link.cc src/hal/user_comps/vfd/spindle_guard.cc
+$(eval $(call program,gs2_vfd,src/hal/user_comps/vfd/gs2_vfd.cc $(MODBUS_DRIVE),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
+$(eval $(call program,hy_gt_vfd,src/hal/user_comps/vfd/percent_vfd.cc $(MODBUS_DRIVE),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
+$(eval $(call program,svd-ps_vfd,src/hal/user_comps/vfd/percent_vfd.cc $(MODBUS_DRIVE),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
+INI_DRIVE := src/hal/user_comps/vfd/ini_section.cc $(MODBUS_DRIVE)
 $(eval $(call program,vfs11_vfd,src/hal/user_comps/vfd/vfs11_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
 $(eval $(call program,vfdb_vfd,src/hal/user_comps/vfd/vfdb_vfd.cc $(INI_DRIVE),linuxcnchal linuxcncini $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
-LINE_DRIVES := src/hal/user_comps/vfd/line_drives.cc src/hal/user_comps/vfd/modbus_link.cc
+LINE_DRIVES := src/hal/user_comps/vfd/line_drives.cc $(MODBUS_DRIVE)
 $(eval $(call program,wj200_vfd,src/hal/user_comps/vfd/wj200_vfd.cc $(LINE_DRIVES),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
 $(eval $(call program,pi500_vfd,src/hal/user_comps/vfd/pi500_vfd.cc $(LINE_DRIVES),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
 endif

@@ -8,8 +8,9 @@ import time
 from hal_outside import halcmd, pins, until
 from modbus_device import SerialDevice
 
-drive = SerialDevice(3, 0x2200)
+drive, told = SerialDevice(3, 0x2200, "line"), []
 STATUS, SPEED, RUN, DIRECTION, RESET = 0x2100, 0x091A, 0x091B, 0x091C, 0x091E
+drive.watch = lambda address, value: address == RUN and told.append(value)
 drive.holding[STATUS:STATUS + 13] = [1, 2, 300, 0, 15, 3100, 2300, 0, 5, 1, 90, 250, 104]
 
 
@@ -80,10 +81,42 @@ until(lambda: drive.holding[RUN] == 0 and get("spindle-on") == "FALSE" and get("
 setp("enable", 1)
 until(lambda: get("initialized") == "TRUE", "enabled")
 print("still off:", drive.holding[RUN])
+time.sleep(0.1)
 setp("spindle-on", 1)
+until(lambda: drive.holding[RUN] == 1, "on")
+halcmd("net", "on", "d.spindle-on")
+setp("enable", 0)
+until(lambda: get("initialized") == "FALSE", "disabled")
+halcmd("sets", "on", "1")
+time.sleep(0.1)
+setp("enable", 1)
+until(lambda: get("initialized") == "TRUE", "enabled, and on all the time")
+time.sleep(0.2)
+print("does not start by itself:", drive.holding[RUN])
+for what in ("silent for a while", "unplugged for a moment"):
+    halcmd("sets", "on", "0")
+    time.sleep(0.1)
+    halcmd("sets", "on", "1")
+    until(lambda: drive.holding[RUN] == 1, "on")
+    told.clear()
+    if what.startswith("silent"):
+        drive.silent = True
+        time.sleep(2)
+        drive.silent = False
+    else:
+        drive.unplug()
+        time.sleep(0.2)
+        drive.plug()
+    until(lambda: told and get("retval") == "0", what)
+    time.sleep(0.2)
+    print("stops first, does not start by itself:", told[0], 1 not in told)
+halcmd("sets", "on", "0")
+time.sleep(0.1)
+halcmd("sets", "on", "1")
 until(lambda: drive.holding[RUN] == 1, "on")
 program.send_signal(signal.SIGTERM)
 print("ends with", program.wait(20), "run", drive.holding[RUN])
+os.unlink("line")
 print("== options")
 for options in (["-r", "1"], ["-r", "115"], ["-p", "x"], ["-b", "9"], ["-t", "0"], ["-t", "255"], ["-n", "x" * 28],
                 ["-A", "x"], ["-q"], ["-h"], ["-d", "/nothing"]):

@@ -19,6 +19,7 @@ class Huanyang:
     def __init__(self):
         self.parameters = {4: 5000, 5: 40000, 11: 2000, 141: 2200, 142: 70, 143: 2, 144: 3000}
         self.status = [0, 0, 35, 0, 310, 220, 1, 40]
+        self.controls = []
         self.control, self.frequency, self.silent, self.broken, self.asked = 8, 0, False, False, []
         self.end, self.other = pty.openpty()
         tty.setraw(self.end)
@@ -35,6 +36,7 @@ class Huanyang:
             return bytes([2, number, value]) if number == 143 else bytes([3, number, value >> 8, value & 0xFF])
         if function == 3:
             self.control = data[0]
+            self.controls.append(data[0])
             running = self.control in (1, 0x11)
             self.status[0], self.status[1] = self.frequency, self.frequency if running else 0
             return bytes([1, (0x09 if running else 0) | (0x24 if self.control == 0x11 else 0)])
@@ -114,7 +116,25 @@ setp("spindle-on", 1)
 time.sleep(0.3)
 print("disabled:", drive.control)
 setp("enable", 1)
-until(lambda: drive.control == 0x11, "enabled, on")
+until(lambda: get("hycomm-ok") == "TRUE", "enabled, and on all the time")
+time.sleep(0.3)
+print("does not start by itself:", drive.control)
+setp("spindle-on", 0)
+time.sleep(0.3)
+setp("spindle-on", 1)
+until(lambda: drive.control == 0x11, "on")
+drive.silent = True
+time.sleep(2.5)
+until(lambda: get("hycomm-ok") == "FALSE", "silent for a while")
+drive.controls.clear()
+drive.silent = False
+until(lambda: get("hycomm-ok") == "TRUE", "good again")
+time.sleep(0.3)
+print("stops first, does not start by itself:", drive.controls[0], 0x11 not in drive.controls)
+setp("spindle-on", 0)
+time.sleep(0.3)
+setp("spindle-on", 1)
+until(lambda: drive.control == 0x11, "on")
 program.send_signal(signal.SIGTERM)
 out, told = program.communicate(timeout=20)
 print("ends with", program.returncode, "control", drive.control)

@@ -10,7 +10,8 @@ from modbus_device import SerialDevice
 
 def work(name, run, frequency, first, more, tells):
     print("==", name)
-    drive = SerialDevice(1, 0x5001)
+    drive, told = SerialDevice(1, 0x5001), []
+    drive.watch = lambda address, value: address == run and told.append(value)
     drive.holding[first[0]:first[0] + len(first[1])] = first[1]
     for address, value in more.items():
         drive.holding[address] = value
@@ -40,10 +41,21 @@ def work(name, run, frequency, first, more, tells):
     until(lambda: drive.holding[run] == 5 and get("freq-cmd") == "0", "stops when it hears again")
     setp("spindle-on", 1)
     until(lambda: drive.holding[run] == 1, "on")
+    told.clear()
+    drive.silent = True
+    time.sleep(1.5)
+    drive.silent = False
+    until(lambda: told and told[0] == 5, "silent for a while: stops first")
+    time.sleep(0.2)
+    print("does not start by itself:", 1 not in told)
+    setp("spindle-on", 0)
+    time.sleep(0.2)
+    setp("spindle-on", 1)
+    until(lambda: drive.holding[run] == 1, "on")
     program.send_signal(signal.SIGTERM)
-    told = program.communicate(timeout=20)[1].splitlines()
+    errors = program.communicate(timeout=20)[1].splitlines()
     print("ends with", program.returncode, "run", drive.holding[run], "told",
-          len(told) > 0 and all("register 0x" in line for line in told))
+          len(errors) > 0 and all("register 0x" in line for line in errors))
 
 
 work("hy_gt_vfd", 0x1000, 0x2000, (0x3000, [20000, 0, 3100, 220, 3, 100, 2]),

@@ -3,7 +3,6 @@
 // gs2_vfd.cc - gs2_vfd: a GS2 drive (AutomationDirect) on a serial line as HAL pins (libmodbus).
 // Source: Modbus sheet, section 2.
 #include <getopt.h>
-#include <modbus.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,8 +14,9 @@
 
 #include "hal.h"
 #include "hardware_program.hh"
+#include "modbus_link.hh"
 #include "option_values.hh"
-#include "serial_line.hh"
+#include "spindle_guard.hh"
 
 namespace gs2 {
 
@@ -48,14 +48,11 @@ struct Pins {
 
 class Drive {
 public:
-    explicit Drive(const Options &options) : options_(options), pins_(options.name) {}
-    ~Drive() {
-        if (link_) modbus_close(link_);
-        modbus_free(link_);
-    }
+    explicit Drive(const Options &options)
+        : options_(options), link_(options.name, connection(options)), pins_(options.name) {}
 
     int run() {
-        if (!open() || !make_pins()) return -1;
+        if (!link_.open() || !make_pins()) return -1;
         pins_.ready();
         while (!ending) {
             step();
@@ -63,40 +60,41 @@ public:
             pause_s(loop_s > 0.001 ? std::min(loop_s, 2.0) : 0.001);
         }
         // nothing turns on after the program
-        for (int tries = 0; *pins_->initialized && tries < 5 && !write(RUN, 0);) tries++;
+        bool stopped = !*pins_->initialized;
+        for (int tries = 0; tries < 5 && !stopped; tries++) stopped = write(RUN, 0);
+        if (!stopped)
+            fprintf(stderr, "%s: ERROR: the drive did not take the stop: its spindle may turn\n",
+                    options_.name.c_str());
         pins_.exit();
         return 0;
     }
 
 private:
-    bool open() {
-        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity,
-                               options_.line.bits, options_.line.stop);
-        if (!link_) {
-            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(),
-                    modbus_strerror(errno));
-            return false;
-        }
-        modbus_set_debug(link_, options_.line.debug);
-        modbus_set_slave(link_, options_.line.target);
-        if (modbus_connect(link_) != 0) {
-            fprintf(stderr, "%s: ERROR: %s: %s\n", options_.name.c_str(), options_.line.device.c_str(),
-                    modbus_strerror(errno));
-            return false;
-        }
-        return true;
+    static vfd::Connection connection(const Options &options) {
+        vfd::Connection connection;
+        connection.line = options.line;
+        return connection;
     }
 
-    bool write(int address, int value) {
-        return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1;
+    bool write(int address, int value) { return answered(link_.write(options_.line.target, address, value)); }
+
+    bool answered(bool good) {
+        guard_.answered(good, link_.connected());
+        if (guard_.lost()) {
+            run_ = direction_ = reset_ = -1; // when it is back it stops first
+            *pins_->at_speed = *pins_->is_stopped = false;
+        }
+        return good;
     }
 
     void step() {
         Pins &p = *pins_;
-        if (!*p.enable) {
+        bool wanted = *p.on, enabled = *p.enable;
+        bool run = guard_.may_run(wanted, enabled);
+        if (!enabled) {
             if (*p.initialized) {
                 *p.on = false;
-                command();
+                command(false);
                 if (run_ == 0) *p.initialized = false; // else the drive did not hear of it: again
             }
             return;
@@ -106,8 +104,13 @@ private:
             *p.initialized = true;
             run_ = direction_ = reset_ = -1;
         }
+        if (guard_.lost() && !write(RUN, 0)) {
+            p.error_count++;
+            p.retval = -1;
+            return;
+        }
         read();
-        command();
+        command(run && !guard_.lost());
     }
 
     bool configure() {
@@ -133,11 +136,10 @@ private:
     void read() {
         Pins &p = *pins_;
         uint16_t r[STATUS_COUNT];
-        p.retval = modbus_read_registers(link_, STATUS, STATUS_COUNT, r);
-        if (p.retval != STATUS_COUNT) {
+        if (!answered(link_.read(options_.line.target, STATUS, STATUS_COUNT, r))) {
+            p.retval = -1;
             p.error_count++;
             *p.at_speed = false;
-            modbus_flush(link_);
             return;
         }
         p.retval = 0;
@@ -165,15 +167,16 @@ private:
         }
     }
 
-    void command() {
+    void command(bool run) {
         Pins &p = *pins_;
         if (p.nameplate_hz < 10) p.nameplate_hz = 60;
         if (p.nameplate_rpm < 600 || p.nameplate_rpm > 5000) p.nameplate_rpm = 1800;
         double hz_tenths = std::fabs(*p.speed_command * p.nameplate_hz / p.nameplate_rpm * 10);
-        write(SPEED, std::isfinite(hz_tenths) ? static_cast<int>(std::min(hz_tenths, 65535.0)) : 0);
+        if (!run) change(RUN, 0, run_); // a stop does not wait
+        bool speed = write(SPEED, std::isfinite(hz_tenths) ? static_cast<int>(std::min(hz_tenths, 65535.0)) : 0);
         *p.rev = !*p.fwd && *p.on;
-        change(RUN, *p.on ? 1 : 0, run_);
         change(DIRECTION, *p.fwd ? 0 : 1, direction_);
+        if (run && speed && direction_ >= 0) change(RUN, 1, run_); // nothing starts as it was before
         change(FAULT_RESET, *p.err_reset ? 1 : 0, reset_);
     }
 
@@ -227,7 +230,8 @@ private:
     }
 
     const Options &options_;
-    modbus_t *link_ = nullptr;
+    vfd::ModbusLink link_;
+    vfd::Guard guard_{false};
     int run_ = -1, direction_ = -1, reset_ = -1, since_start_ = 0;
     vfd::PinnedComponent<Pins> pins_;
 };

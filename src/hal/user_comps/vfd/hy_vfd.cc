@@ -14,6 +14,7 @@
 #include "hycomm.hh"
 #include "option_values.hh"
 #include "serial_line.hh"
+#include "spindle_guard.hh"
 
 namespace hy {
 
@@ -66,6 +67,7 @@ public:
         pins_.ready();
         while (!ending) {
             if (!*pins_->enable) {
+                may_run();
                 if (!stopped_) stopped_ = write_control(STOP); // it did not hear of it: again
                 pause_s(LOOK_S);
                 continue;
@@ -88,9 +90,17 @@ public:
     }
 
 private:
+    /// The command is to run, in one direction.
+    bool may_run() {
+        Pins &p = *pins_;
+        bool wanted = *p.on && *p.forward != *p.reverse, enabled = *p.enable;
+        return guard_.may_run(wanted, enabled);
+    }
+
     /// Counts what went well and what did not.
     std::optional<int> told(std::optional<int> answer) {
         Pins &p = *pins_;
+        guard_.answered(answer.has_value(), drive_.is_open());
         if (answer) {
             good_ = std::min(good_ + 1, OK_AFTER + 1);
             *p.retval = 0;
@@ -145,15 +155,17 @@ private:
 
     void cycle() {
         Pins &p = *pins_;
-        bool forward = *p.on && *p.forward && !*p.reverse, reverse = *p.on && *p.reverse && !*p.forward;
-        write_frequency(forward, reverse);
-        write_control(forward ? RUN_FORWARD : reverse ? RUN_REVERSE : STOP);
-        for (int n = 0; n < STATUSES; n++)
+        bool run = may_run(), forward = run && *p.forward, reverse = run && !forward;
+        bool good = run || write_control(STOP); // a stop does not wait; nothing starts at the speed of before
+        if (!guard_.lost()) good = write_frequency(forward, reverse) && good;
+        if (run && good) write_control(forward ? RUN_FORWARD : RUN_REVERSE);
+        for (int n = 0; n < STATUSES && !guard_.lost(); n++)
             if (auto value = told(drive_.status(n))) *p.status[n] = *value / STATUS_SCALE[n];
+        if (guard_.lost()) frequency_ = -1; // nothing is known; when it is back it stops first
         speed();
     }
 
-    void write_frequency(bool forward, bool reverse) {
+    bool write_frequency(bool forward, bool reverse) {
         Pins &p = *pins_;
         double rated = *p.rated_rev, command = *p.speed_command;
         if (!std::isfinite(command)) command = 0;
@@ -162,7 +174,8 @@ private:
         double most = *p.max_freq, least = *p.lower_limit;
         int value = static_cast<int>(std::min(std::max(std::min(hz, most), least), 655.35) * 100);
         *p.frequency_command = value;
-        if (value != frequency_ && told(drive_.frequency(value))) frequency_ = value;
+        if (value != frequency_) frequency_ = told(drive_.frequency(value)) ? value : -1;
+        return frequency_ == value;
     }
 
     bool write_control(int control) {
@@ -189,6 +202,9 @@ private:
     void rest() {
         stopped_ = false;
         for (int tries = 0; tries < STOP_TRIES && !stopped_; tries++) stopped_ = write_control(STOP);
+        if (!stopped_ && ending)
+            fprintf(stderr, "%s: ERROR: the drive did not take the stop: its spindle may turn\n",
+                    options_.name.c_str());
         *pins_->at_speed = false;
         *pins_->fb = 0;
         *pins_->fb_rps = 0;
@@ -231,6 +247,7 @@ private:
 
     const Options &options_;
     Hycomm drive_;
+    vfd::Guard guard_{false};
     vfd::PinnedComponent<Pins> pins_;
     int good_ = 0, frequency_ = -1;
     bool told_ = false, stopped_ = true;

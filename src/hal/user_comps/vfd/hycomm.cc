@@ -40,17 +40,17 @@ speed_t speed_of(int rate) {
 
 } // namespace
 
-Hycomm::~Hycomm() {
+Hycomm::~Hycomm() { shut(); }
+
+void Hycomm::shut() {
     if (port_ >= 0) close(port_);
+    port_ = -1;
 }
 
 bool Hycomm::open() {
     port_ = ::open(line_.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
     termios t = {};
-    if (port_ < 0 || tcgetattr(port_, &t) != 0) {
-        fprintf(stderr, "%s: ERROR: %s: %s\n", program_.c_str(), line_.device.c_str(), strerror(errno));
-        return false;
-    }
+    if (port_ < 0 || tcgetattr(port_, &t) != 0) return fail_to_open();
     cfmakeraw(&t);
     cfsetspeed(&t, speed_of(line_.rate));
     constexpr tcflag_t SIZES[] = {CS5, CS6, CS7, CS8};
@@ -59,8 +59,14 @@ bool Hycomm::open() {
     if (line_.parity != 'N') t.c_cflag |= PARENB;
     if (line_.parity == 'O') t.c_cflag |= PARODD;
     if (line_.stop == 2) t.c_cflag |= CSTOPB;
-    if (tcsetattr(port_, TCSANOW, &t) == 0) return true;
-    fprintf(stderr, "%s: ERROR: %s: %s\n", program_.c_str(), line_.device.c_str(), strerror(errno));
+    return tcsetattr(port_, TCSANOW, &t) == 0 || fail_to_open();
+}
+
+bool Hycomm::fail_to_open() {
+    std::string text = line_.device + ": " + strerror(errno);
+    if (text != told_) fprintf(stderr, "%s: ERROR: %s\n", program_.c_str(), text.c_str());
+    told_ = text;
+    shut();
     return false;
 }
 
@@ -84,7 +90,10 @@ bool Hycomm::receive(uint8_t *at, int count) {
         pollfd wait = {port_, POLLIN, 0};
         if (poll(&wait, 1, ANSWER_MS) != 1) return false;
         ssize_t got = read(port_, at, static_cast<size_t>(count));
-        if (got <= 0) return false;
+        if (got <= 0) {
+            shut(); // it is gone
+            return false;
+        }
         at += got;
         count -= static_cast<int>(got);
     }
@@ -101,8 +110,12 @@ std::optional<int> Hycomm::ask(Function function, std::initializer_list<int> dat
     uint16_t check = crc(out, size);
     out[size++] = static_cast<uint8_t>(check & 0xFF);
     out[size++] = static_cast<uint8_t>(check >> 8);
+    if (port_ < 0 && !open()) return std::nullopt;
     tcflush(port_, TCIFLUSH);
-    if (write(port_, out, static_cast<size_t>(size)) != size) return fail(function, "cannot be sent");
+    if (write(port_, out, static_cast<size_t>(size)) != size) {
+        shut();
+        return fail(function, "cannot be sent");
+    }
     show(">", out, size);
     if (!receive(in, HEAD)) return fail(function, "no answer");
     int length = in[2], total = HEAD + length + CHECK;

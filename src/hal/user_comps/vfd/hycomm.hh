@@ -24,8 +24,9 @@ public:
     Hycomm(std::string program, const vfd::SerialLine &line) : program_(std::move(program)), line_(line) {}
     ~Hycomm();
 
-    /// False, with a message on stderr.
+    /// False, with a message on stderr. A line that is gone is opened anew by the requests that come later.
     bool open();
+    bool is_open() const { return port_ >= 0; }
 
     // Each asks once and waits at most 0.5 s for the answer and for every gap in it. Nothing, with a message,
     // on failure.
@@ -38,6 +39,8 @@ public:
 private:
     std::optional<int> ask(Function function, std::initializer_list<int> data);
     bool receive(uint8_t *at, int count);
+    bool fail_to_open();
+    void shut();
     std::optional<int> fail(Function function, const char *what);
     void show(const char *direction, const uint8_t *data, int size) const;
 

@@ -14,6 +14,7 @@
 #include "hardware_program.hh"
 #include "ini_section.hh"
 #include "modbus_link.hh"
+#include "spindle_guard.hh"
 
 namespace vfd {
 

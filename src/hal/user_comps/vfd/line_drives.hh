@@ -11,6 +11,7 @@
 
 #include "hal.h"
 #include "modbus_link.hh"
+#include "spindle_guard.hh"
 
 namespace vfd {
 

@@ -4,7 +4,6 @@
 // hundredths of a percent (libmodbus). The name of the program chooses. Source: Modbus sheet, section 4.
 #include <errno.h>
 #include <getopt.h>
-#include <modbus.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,8 +15,9 @@
 
 #include "hal.h"
 #include "hardware_program.hh"
+#include "modbus_link.hh"
 #include "option_values.hh"
-#include "serial_line.hh"
+#include "spindle_guard.hh"
 
 namespace percent {
 
@@ -92,72 +92,63 @@ struct Pins {
 
 class Drive {
 public:
-    Drive(const Kind &kind, const Options &options) : kind_(kind), options_(options), pins_(kind.name) {}
-    ~Drive() {
-        if (link_) modbus_close(link_);
-        modbus_free(link_);
-    }
+    Drive(const Kind &kind, const Options &options)
+        : kind_(kind), line_(options.line), options_(options), link_(kind.name, connection(kind, options)),
+          pins_(kind.name) {}
 
     int run() {
-        if (!open() || !make_pins()) return 1;
+        if (!link_.open() || !make_pins()) return 1;
         pins_.ready();
         while (!ending) {
             double period = *pins_->period;
             pause_s(period > 0.001 ? std::min(period, 2.0) : 0.001);
             if (!ending) step();
         }
-        write(kind_.run, STOP);
+        if (!write(kind_.run, STOP))
+            fprintf(stderr, "%s: ERROR: the drive did not take the stop: its spindle may turn\n", kind_.name);
         pins_.exit();
         return 0;
     }
 
 private:
-    bool open() {
-        link_ = modbus_new_rtu(options_.line.device.c_str(), options_.line.rate, options_.line.parity,
-                               options_.line.bits, options_.line.stop);
-        if (link_ && modbus_set_slave(link_, options_.line.target) == 0 && modbus_connect(link_) == 0) {
-            modbus_set_debug(link_, options_.line.debug);
-            modbus_set_response_timeout(link_, 0, static_cast<uint32_t>(kind_.response_us));
-            return true;
-        }
-        fprintf(stderr, "%s: ERROR: %s: %s\n", kind_.name, options_.line.device.c_str(), modbus_strerror(errno));
-        return false;
+    static vfd::Connection connection(const Kind &kind, const Options &options) {
+        vfd::Connection connection;
+        connection.line = options.line;
+        connection.response_s = kind.response_us * 1e-6;
+        return connection;
     }
 
     /// Up to six tries with the silence that the drive needs before each.
-    template <class F> bool transact(const char *what, int address, F once) {
+    template <class F> bool transact(F once) {
         for (int n = 0; n < TRIES; n++) {
-            std::this_thread::sleep_for(
-                std::chrono::microseconds(kind_.gap_bytes * 10 * 1000000LL / options_.line.rate));
-            if (once()) {
-                told_ = false;
-                return true;
-            }
+            sleep_us(kind_.gap_bytes * 10 * 1000000LL / line_.rate);
+            bool good = once();
+            guard_.answered(good, link_.connected());
+            if (good) return true;
             *pins_->errors = *pins_->errors + 1;
-            if (!told_)
-                fprintf(stderr, "%s: error %s register 0x%04x: %s\n", kind_.name, what, static_cast<unsigned>(address),
-                        modbus_strerror(errno));
-            told_ = true; // once until it works again
-            std::this_thread::sleep_for(
-                std::chrono::microseconds(kind_.response_us)); // a late answer is not the next one's
-            modbus_flush(link_);
+            if (!link_.connected()) return false;
+            sleep_us(kind_.response_us); // a late answer is not the next one's
         }
         return false;
     }
 
+    static void sleep_us(long long us) { std::this_thread::sleep_for(std::chrono::microseconds(us)); }
+
     bool read(int address, uint16_t &value) {
-        return transact("reading", address, [&] { return modbus_read_registers(link_, address, 1, &value) == 1; });
+        return transact([&] { return link_.read(line_.target, address, 1, &value); });
     }
 
     bool write(int address, int value) {
-        return transact("writing", address,
-                        [&] { return modbus_write_register(link_, address, static_cast<uint16_t>(value)) == 1; });
+        return transact([&] { return link_.write(line_.target, address, value); });
     }
 
     void step() {
         Pins &p = *pins_;
-        if (*p.on) start();
-        else stop();
+        bool run = guard_.may_run(*p.on, true);
+        if (!(run ? start() : stop()) && guard_.lost()) {
+            *p.at_speed = false;
+            return; // when it is back it stops first
+        }
         for (size_t n = 0; n < MAX_VALUES && kind_.values[n].pin; n++) {
             uint16_t value;
             if (!read(kind_.values[n].address, value)) {
@@ -172,20 +163,20 @@ private:
             *p.fault_code = fault;
         }
         double command = *p.speed_cmd, speed = *p.values[4];
-        *p.at_speed = *p.on && command > 0 && std::fabs(command - speed) / command < 0.02;
+        *p.at_speed = run && command > 0 && std::fabs(command - speed) / command < 0.02;
     }
 
-    void start() {
+    bool start() {
         Pins &p = *pins_;
         double part = *p.speed_cmd / options_.max_speed;
         part = std::isfinite(part) ? std::min(std::max(part, 0.0), 1.0) : 0.0;
         *p.freq_cmd = part * options_.max_hz;
-        if (write(kind_.frequency, static_cast<int>(std::lround(part * FULL)))) write(kind_.run, FORWARD);
+        return write(kind_.frequency, static_cast<int>(std::lround(part * FULL))) && write(kind_.run, FORWARD);
     }
 
-    void stop() {
+    bool stop() {
         *pins_->freq_cmd = 0;
-        write(kind_.run, STOP);
+        return write(kind_.run, STOP);
     }
 
     bool make_pins() {
@@ -209,10 +200,11 @@ private:
     }
 
     const Kind &kind_;
+    const vfd::SerialLine &line_;
     const Options &options_;
-    modbus_t *link_ = nullptr;
+    vfd::ModbusLink link_;
+    vfd::Guard guard_;
     vfd::PinnedComponent<Pins> pins_;
-    bool told_ = false;
 };
 
 constexpr option LONG[] = {
