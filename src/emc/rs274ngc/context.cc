@@ -63,7 +63,8 @@ Restore plan(const Setup &s, const SavedModes &then, bool with_m)
     Restore r;
     if (g[5] != then.g[5]) r.units = then.g[5] == G_20 ? "G20" : "G21";
     char buf[128];
-    snprintf(buf, sizeof buf, "F%.1f S%.0f", then.settings[1], then.settings[2]);
+    // M72 and M73 round, as documented.
+    snprintf(buf, sizeof buf, with_m ? "F%.1f S%.0f" : "F%.9f S%.9f", then.settings[1], then.settings[2]);
     std::string line = buf;
     static const int order[] = {3, 4, 6, 7, 8, 9, 10, 11, 13, 14, 15, 16};
     for (int i : order) {

@@ -67,3 +67,12 @@ for number, text in enumerate(LINES, 1):
     ok = system == s.g5x_index and all(abs(a - b) < 1e-4 for a, b in zip(shown, here))
     print(number, text, f"G5x {s.g5x_index} G92 {s.g92_offset[0]:g} tool {s.tool_offset[2]:g} R {s.rotation_xy:g}",
           "agrees" if ok else f"status {shown} interpreter {system} {here}")
+# Feed and speed of the move that was made are in force again, to the digit.
+for words in "G21 G94\nF123.456 S77.5", "G20 G94\nF2.36 S100", "G21 G95\nF0.05 S600":
+    program(f"{words} M3\nG90 G1 X0.01\nG1 X5\nF900 S5 G94\nG1 X6\nM2\n")
+    c.auto(AUTO_RUN, 0)
+    need(lambda s: s.motion_line == 4, "move")
+    c.abort()
+    c.wait_complete()
+    need(lambda s: s.interp_state == INTERP_IDLE, "end")
+    print(words.replace("\n", " "), [round(v, 3) for v in s.settings[1:3]], s.gcodes[7], messages())
