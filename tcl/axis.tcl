@@ -505,9 +505,12 @@ proc ::axis::build_speed {w text value variable command} {
     pack $w.s -side left -fill x -expand 1
 }
 
-# Letters of the longest text, at least so many.
+# Letters of the longest text, at least so many; more where they are wide ones (widths are rounded at every size anew).
 proc ::axis::longest {least args} {
-    foreach text $args { set least [expr {max($least, [string length $text])}] }
+    set digit [expr {[font measure TkDefaultFont 0] / 1.08}]
+    foreach text $args {
+        set least [expr {max($least, [string length $text], int(ceil([font measure TkDefaultFont $text] / $digit)))}]
+    }
     return $least
 }
 
