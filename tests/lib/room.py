@@ -6,7 +6,8 @@
 
 Each trouble is a line "path: what". Looked for:
   cut       a text has less room than its letters need, or a word of it is broken
-  hidden    a widget or a text of a canvas lies outside of what holds it, and nothing scrolls there
+  hidden    a widget or a text of a canvas lies outside of what holds it, and nothing scrolls there; or what scrolls
+            has no room
   overlap   two widgets of one holder, or two texts of one canvas, lie over each other
   screen    a window or a menu is larger than the screen
   focus     a dialog's button does not show that the keyboard presses it
@@ -27,6 +28,7 @@ FIELDS = ("Entry", "Spinbox", "TEntry", "TSpinbox", "TCombobox")
 PRESSED = ("Button", "Checkbutton", "Radiobutton", "TButton", "TCheckbutton", "TRadiobutton", "TMenubutton",
            "TCombobox", "TEntry", "Entry", "Scale", "TScale")
 FEW_LINES = 6               # of a text that scrolls
+LEAST_PORT = 48             # pixels of what scrolls as a whole
 MORE = 0.4                  # of a text in a language with long words
 NUMBER_DIGITS = 14          # what is shorter than this in an entry is a number or a name that must be seen whole
 
@@ -149,6 +151,11 @@ class Look:
 
     def ways(self, path, kind):
         """Which ways a widget scrolls."""
+        if kind == "ScrolledPort":          # bars are beside it where they are needed (kerf.tkscroll)
+            bars = {str(self.call(w, "cget", "-orient")) for w in map(str, self.listed(
+                self.call("winfo", "children", path.rpartition(".")[0])))
+                if str(self.call("winfo", "class", w)) == "TScrollbar" and self.number(w, "ismapped")}
+            return "horizontal" in bars, "vertical" in bars
         if kind in ("Canvas", "Text", "Listbox", "Treeview"):
             return bool(self.option(path, "xscrollcommand")), bool(self.option(path, "yscrollcommand"))
         return False, False
@@ -195,6 +202,10 @@ class Look:
             self.rows(path, width)
         elif kind == "Text":
             self.page(path, width, height)
+        elif kind == "ScrolledPort":
+            for size, way in zip((width, height), self.ways(path, kind)):
+                if way and size < LEAST_PORT:
+                    self.tell(path, "hidden", f"{size} pixels in sight of what scrolls")
         if (self.touch and kind in PRESSED and height < self.touch
                 and self.option(path, "state", "normal") != "disabled"):
             self.tell(path, "small", f"{height} pixels")

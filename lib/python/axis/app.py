@@ -97,6 +97,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.writers = {}        # which pins had one when widgets were hidden
         self.place = ""          # file and line of a subroutine that runs
         self.panel = None
+        self.views = []          # panels and tabs that scroll where they have no room
         self.widget_signs = {}
         self.loader = program.Loader(self.settings, self.former_folder())
         self.waits = Waits(self.prefs, ini_path, self.hal_value)

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """How the screen looks: colours, sizes, room for fingers. All of it changes while the screen runs."""
 
+import math
 import tkinter as tk
 import tkinter.ttk
 
 from kerf import tkfit, tkstyle
+from kerf.tkscroll import Scrolling
 
 from . import dialogs
 from .icons import Icons
@@ -17,6 +19,8 @@ DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number":
         "trough": "#44474c", "mark": "#1e1f23"}
 TOUCH = 1.7                     # buttons and sliders for gloves, where the screen has room for them
 USUAL_WINDOW, SASH = (1280, 860), 10
+LEAST_PANEL = 150, 64           # of a panel that scrolls
+PANEL_COST = 0.75               # smaller letters than that, of what they were without, are worse than a panel that scrolls
 CODE_LINES = 6                   # of the program in sight on a low screen, if there is room
 HELP_LETTERS = 36                # of a line of the quick reference
 TOUCH_STEP, LEAST_TOUCH = 0.05, 1.1
@@ -29,7 +33,7 @@ class LooksPart:
     def first_look(self):
         """Before the widgets are made."""
         root = self.root
-        self.most_scale, self.most_touch = tkstyle.MAX_SCALE, TOUCH      # less where the screen has no room for more
+        self.full_size()
         root.tk.eval("namespace eval ::axis {}")
         root.tk.call("font", "create", "AxisBold", "-family", "DejaVu Sans", "-size", -13, "-weight", "bold")
         self.apply_style()
@@ -83,33 +87,43 @@ class LooksPart:
                                ("*Radiobutton.selectColor", colours["mark"]), ("*Checkbutton.padY", pad * 2 // 3),
                                ("*Radiobutton.padY", pad * 2 // 3), ("*readonlyBackground", colours["field"])):
             root.option_add(pattern, value, "startupFile")
-        tkinter.ttk.Style(root).configure("TCombobox", padding=style.px(8 if touch > 1 else 3))
+        theme = tkinter.ttk.Style(root)
+        theme.configure("TCombobox", padding=style.px(8 if touch > 1 else 3))
+        for name in ("Vertical.TScrollbar", "Horizontal.TScrollbar"):
+            theme.configure(name, arrowsize=style.px(14 * touch))
 
     def asked(self):
         """The size with room for everything. Panes are asked one by one: together they ask for what they have."""
-        number = lambda what, path: int(self.root.tk.call("winfo", what, path))     # noqa: E731
-        panes = (".pane.top", ".pane.bottom")
-        height = self.root.winfo_reqheight() - number("reqheight",
-                                                      ".pane") + sum(number("reqheight", p) for p in panes) + SASH
-        return max(self.root.winfo_reqwidth(), *(number("reqwidth", p) for p in panes)), height
+        call = self.root.tk.call
+        Scrolling.of(self.root).settle()
+        call("::axis::arrange")
+        self.root.update_idletasks()
+        call(".pane", "configure", "-height",
+             sum(int(call("winfo", "reqheight", pane)) for pane in (".pane.top", ".pane.bottom")) + SASH)
+        self.root.update_idletasks()
+        return max(self.root.winfo_reqwidth(), *(int(call("winfo", "reqwidth", pane))
+                                                 for pane in (".pane.top", ".pane.bottom"))), self.root.winfo_reqheight()
 
     def fit_screen(self):
-        """Letters, then what is large for touch, become smaller until the window has its room on the screen."""
-        root = self.root
-        root.tk.call("::axis::arrange")
-        for _ in range(2 * tkfit.STEPS):
-            root.update_idletasks()
-            share = tkfit.share_of(root, self.asked())
-            if share >= 1:
-                break
-            if self.style.scale > 1:
-                self.most_scale = max(1.0, self.style.scale * tkfit.step_for(share))
-            elif self.roominess() > LEAST_TOUCH:
-                self.most_touch = self.roominess() - TOUCH_STEP
-            else:
-                break
-            self.restyle()
+        """Letters, then what is large for touch, become smaller until the window has its room on the screen. Panels
+        for which that is not enough, or costs too much, scroll: letters are as large as the rest of the window allows.
+        """
+        root, views, wanted = self.root, [view for view in self.views if view.winfo_exists()], self.style.scale
+        fits = self.shrink_to_fit(views, (math.inf, math.inf), not views)
+        low = math.inf, LEAST_PANEL[1]
+        if views and not (fits and self.style.scale >= PANEL_COST * self.scale_with(views, low, wanted)):
+            for most in (low, LEAST_PANEL):
+                scale = self.scale_with(views, most, wanted)
+                if scale < 1 and most is low:
+                    continue
+                self.full_size()
+                self.most_scale = max(scale, 1.0)
+                self.restyle()
+                if self.shrink_to_fit(views, most, most is LEAST_PANEL):
+                    break
         room = tkfit.room_of(root)
+        for view in views:
+            tkfit.give_room(view, self.asked, room, tuple(map(self.style.px, LEAST_PANEL)))
         self.more_code(room[1] - self.asked()[1])
         asked = self.asked()
         root.minsize(*map(min, asked, room))
@@ -134,6 +148,37 @@ class LooksPart:
         """The last word about these places."""
         for command, value in chosen.items():
             self.root.tk.eval(f"{command} {value}")
+
+    def limit(self, views, most):
+        """What each view asks for at most, in the pixels of a usual screen."""
+        for view in views:
+            view.limit(*(pixels * self.style.scale for pixels in most))
+
+    def scale_with(self, views, most, wanted):
+        """About the scale that the window would have with views that ask for so much."""
+        self.limit(views, most)
+        return min(wanted, self.style.scale * tkfit.share_of(self.root, self.asked()))
+
+    def full_size(self):
+        self.most_scale, self.most_touch = tkstyle.MAX_SCALE, TOUCH      # less where the screen has no room for more
+
+    def shrink_to_fit(self, views, most, hopeless_too):
+        """Whether the window has room now. hopeless_too: letters become smaller even if that cannot be enough."""
+        for _ in range(2 * tkfit.STEPS):
+            self.limit(views, most)
+            share = tkfit.share_of(self.root, self.asked())
+            if share >= 1:
+                return True
+            if not hopeless_too and share * self.style.scale * self.roominess() ** 2 < 1:
+                return False
+            if self.style.scale > 1:
+                self.most_scale = max(1.0, self.style.scale * tkfit.step_for(share))
+            elif self.roominess() > LEAST_TOUCH:
+                self.most_touch = self.roominess() - TOUCH_STEP
+            else:
+                return False
+            self.restyle()
+        return False
 
     def more_code(self, spare):
         """Lines of the program that a low screen has room for, out of so many pixels."""
@@ -221,7 +266,7 @@ class LooksPart:
     def change(self, name, value, kind=bool):
         """A preference of the look: the window as if it had started so."""
         self.prefs.putpref(name, kind(value), kind)
-        self.most_scale, self.most_touch = tkstyle.MAX_SCALE, TOUCH
+        self.full_size()
         self.restyle()
         self.fit_screen()
 

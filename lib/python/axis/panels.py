@@ -13,6 +13,7 @@ import tkinter as tk
 import hal
 import hal.query
 from kerf import clock
+from kerf.tkscroll import Scrolled
 
 CHILD_POLL_MS = 100
 LOADUSR = "halcmd loadusr"
@@ -20,6 +21,11 @@ LOADUSR = "halcmd loadusr"
 
 class PanelsPart:
     """Part of App: panels, tabs, child processes."""
+
+    def view(self, master, **options):
+        """A frame for a panel, which scrolls where the screen has no room for it."""
+        self.views.append(Scrolled(master, **options))
+        return self.views[-1]
 
     # -- PyVCP -----------------------------------------------------------------------------
 
@@ -52,9 +58,9 @@ class PanelsPart:
         path = self.settings.find("DISPLAY", "PYVCP")
         if not path or self.comp is None:
             return
-        self.panel = tk.Frame(self.root, name="pyvcp")
+        self.panel = self.view(self.root, name="pyvcp")
         self.panel_at_bottom = self.settings.find("DISPLAY", "PYVCP_POSITION") == "BOTTOM"
-        component = self.pyvcp(self.panel, path, "pyvcp")
+        component = self.pyvcp(self.panel.inner, path, "pyvcp")
         if component is None:
             self.panel.destroy()
             self.panel = None
@@ -79,15 +85,12 @@ class PanelsPart:
 
     # -- GladeVCP and tabs -----------------------------------------------------------------
 
-    def container(self, path):
-        """A frame that another program shows its window in; the X window id."""
-        tcl = self.root.tk
-        tcl.call("frame", path, "-container", 1, "-background", "")
-        return path
-
-    def x_window(self, path):
+    def container(self, view):
+        """A frame in a view that another program shows its window in; the X window id."""
+        frame = tk.Frame(view.inner, container=True, background="")
+        frame.pack(fill="both", expand=True)
         self.root.update_idletasks()
-        return int(str(self.root.tk.call("winfo", "id", path)), 0)
+        return frame.winfo_id()
 
     def start_child(self, words, line):
         try:
@@ -107,22 +110,20 @@ class PanelsPart:
             names = lines = []
         self.tab_components, self.tab_names = [], []
         for i, (name, line) in enumerate(zip(names, lines)):
-            frame = self.add_tab(f"user_{i}", name)
+            view = self.view(self.wrap(str(self.add_tab(f"user_{i}", name))))
+            view.pack(fill="both", expand=True)
             words = line.split()
             if words[:1] == ["pyvcp"]:
                 if self.comp is None:
                     print(f"axis: EMBED_TAB_COMMAND = {line}: no panels with AXIS_NO_HAL")
                 elif len(words) == 2:
-                    inner = self.wrap(str(frame))
                     self.tab_names.append(name.lower().replace(" ", "_"))
-                    self.tab_components.append(self.pyvcp(inner, words[1], self.tab_names[-1]))
+                    self.tab_components.append(self.pyvcp(view.inner, words[1], self.tab_names[-1]))
                 else:
                     print(f"axis: EMBED_TAB_COMMAND = {line}: a panel has one file and no options")
                 continue
-            path = self.container(f"{frame}.container")
-            self.root.tk.call("pack", path, "-fill", "both", "-expand", 1)
             try:
-                words = shlex.split(line.replace("{XID}", str(self.x_window(path))))
+                words = shlex.split(line.replace("{XID}", str(self.container(view))))
             except ValueError as e:
                 print(f"axis: EMBED_TAB_COMMAND = {line}: {e}")
                 continue
@@ -141,9 +142,9 @@ class PanelsPart:
             at = words.index("-c")
             name = words[at + 1]
             del words[at:at + 2]
-        path = self.container(".gladevcp")
-        self.root.tk.call("grid", path, "-row", 0, "-column", 5, "-rowspan", 6, "-sticky", "nsew")
-        xid = self.x_window(path)
+        view = self.view(self.root, name="gladevcp")
+        view.grid(row=0, column=5, rowspan=6, sticky="nsew")
+        xid = self.container(view)
         line = f"{LOADUSR} -Wn {name} gladevcp -c {name} -d -x {xid} " + " ".join(words)
         self.start_child(["halcmd", "loadusr", "-Wn", name, "gladevcp", "-c", name, "-d", "-x", str(xid), *words], line)
 

@@ -4,12 +4,15 @@
     Fit(root, style, restyle)      # what tkstyle.apply() does
 
 A window that appears and asks for more than it has gets it. Where the screen has no more, what scrolls gives way;
-then letters (and at last what is large for touch) become smaller, down to those of a usual screen.
+then letters (and at last what is large for touch) become smaller, down to those of a usual screen. What may scroll as a
+whole (tkscroll) does so where that is not enough.
 """
 
 import re
 import tkinter as tk
 import tkinter.font
+
+from .tkscroll import Scrolled, Scrolling
 
 FRAME_PX = 40           # of the screen's height, for the desktop's title and bar; a menu of the window is above that
 STEPS = 12              # at most, for one window
@@ -49,6 +52,8 @@ def room_of(window):
 
 
 def asked(window):
+    """What a window asks for now."""
+    Scrolling.of(window).settle()
     return window.winfo_reqwidth(), window.winfo_reqheight()
 
 
@@ -83,6 +88,28 @@ def give_way(widget):
             if int(child.winfo_pixels(str(child.cget("height")))) > lines:
                 child.configure(height=int(lines))
         give_way(child)
+
+
+def views(widget):
+    """What may scroll as a whole, below this widget."""
+    for child in widget.winfo_children():
+        if isinstance(child, Scrolled):
+            yield child
+        else:
+            yield from views(child)
+
+
+def give_room(view, asked, room, least=(1, 1)):
+    """A view asks for what is left where all asks for asked() and has room; not for less than `least`, if it needs
+    that."""
+    most = room
+    for _ in range(3):          # a bar takes room, for which the other one may be needed
+        view.limit(*most)
+        over = [a - r for a, r in zip(asked(), room)]
+        if max(over) <= 0:
+            return
+        most = [max(a - o, n) if o > 0 else m for a, o, m, n in zip(view.asks(), over, most, least)]
+    view.limit(*most)
 
 
 def enlarge(window, wanted):
@@ -138,19 +165,26 @@ class Fit:
             self.fit(window)
 
     def fit(self, window):
-        window.update_idletasks()
         wanted = asked(window)
         if share_of(window) < 1:
             window.before_giving_way = wanted           # for tkstyle.centre(), should it come later
             give_way(window)
             enlarge(window, wanted)
+        if share_of(window) * self.style.scale < 1:         # smaller letters are not enough
+            self.scroll(window)
         for _ in range(STEPS):
-            window.update_idletasks()
             share = share_of(window)
             if share >= 1 or not self.shrink(share):
                 break
             fields_anew(self.root)
+        self.scroll(window)
         enlarge(window, asked(window))
+
+    def scroll(self, window):
+        """Panels that the window has no room for."""
+        for view in views(window):
+            if share_of(window) < 1:
+                give_room(view, lambda: asked(window), room_of(window))
 
     def shrink(self, share):
         """Letters and gaps by about this share; False when they are as small as they may be."""

@@ -9,6 +9,7 @@ from kerf import tkstyle
 from .base import Follower, brightness, known_options
 
 MAX_LEGENDS, ICON_PX = 6, 24
+WHEEL = 4, 5, 6, 7          # of X11: no buttons that a hand presses
 
 
 def give_mark(button, kind, options):
@@ -41,7 +42,7 @@ class Button(tk.Button, Disabling):
         name = panel.default(halpin, "button")
         self.pin = panel.new(name, hal.HAL_BIT, hal.HAL_OUT)
         self.make_disable(panel, name, disable_pin)
-        self.bind("<ButtonPress>", lambda _: self.press(True), "+")
+        self.bind("<ButtonPress>", lambda e: e.num in WHEEL or self.press(True), "+")
         self.bind("<ButtonRelease>", lambda _: self.press(False), "+")
         self.bind("<KeyPress-space>", lambda _: self.press(True), "+")
         self.bind("<KeyRelease-space>", lambda _: self.press(False), "+")

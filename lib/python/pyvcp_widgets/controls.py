@@ -6,23 +6,17 @@ import re
 import tkinter as tk
 
 import hal
+from kerf.tkscroll import turns, wheel_scrolls
 
 from .base import Canvas, Follower, ink_on
 
 S32_MIN, S32_MAX = -2 ** 31, 2 ** 31 - 1
-WHEEL = {"4": 1, "5": -1}       # buttons of X11
-
-
-def turns(event):
-    """+1 or -1 for a step of the wheel."""
-    if event.num in (4, 5):
-        return WHEEL[str(event.num)]
-    return 1 if event.delta > 0 else -1
 
 
 def bind_wheel(widget, action):
+    """action(step) for each step of the wheel, +1 or -1; not while that scrolls the panel below the pointer."""
     for event in ("<Button-4>", "<Button-5>", "<MouseWheel>"):
-        widget.bind(event, lambda e: action(turns(e)))
+        widget.bind(event, lambda e: None if wheel_scrolls(e) else action(turns(e)))
 
 
 def make_param_pin(panel, kind, number, halparam, initval):

@@ -140,7 +140,7 @@ class Tabs(tk.Widget, Container):
     def __init__(self, master, panel, names=(), **options):
         master.tk.call("package", "require", "BWidget")
         tk.Widget.__init__(self, master, "NoteBook", options)
-        self.names, self.pages = [str(name) for name in names], 0
+        self.names, self.pages, self.waiting = [str(name) for name in names], 0, None
 
     def holder(self):
         """The frame of the next page."""
@@ -158,16 +158,18 @@ class Tabs(tk.Widget, Container):
         child.pack(fill="both", expand="yes")
         if self.pages == 1:
             self.tk.call(self._w, "raise", "p0")
-        self.tk.call(self._w, "compute_size")
-        self.after_idle(self.widen)
+        if self.waiting is None:
+            self.waiting = self.after_idle(self.widen)
 
     def tint(self):
         """The strip beside the names has the panel's ground."""
         self.tk.call(f"{self._w}.c", "configure", "-background", self.master["background"])
 
     def widen(self):
-        """Wide enough for all names: the notebook thinks of its pages alone."""
+        """Room for what the pages hold when all is made, and for all names: the notebook thinks of its pages alone."""
+        self.waiting = None
         if self.winfo_exists():
+            self.tk.call(self._w, "compute_size")
             names = self.tk.splitlist(self.tk.call(f"{self._w}.c", "bbox", "page"))
             if names and int(names[2]) + TAB_EDGE > int(self["width"]):
                 self.configure(width=int(names[2]) + TAB_EDGE)

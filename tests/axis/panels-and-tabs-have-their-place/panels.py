@@ -12,6 +12,16 @@ def halcmd(*words):
     return clock.run(["halcmd", *words], stdout=subprocess.PIPE, text=True).stdout.strip()
 
 
+def container(widget):
+    """The X window below a widget that another program has its window in."""
+    for child in widget.winfo_children():
+        if "container" in child.keys() and str(child["container"]) == "1":
+            return child.winfo_id()
+        if found := container(child):
+            return found
+    return 0
+
+
 def script(op):
     sys.stdout = open("transcript", "w", buffering=1)
     app, tcl = op.app, op.root.tk
@@ -47,13 +57,13 @@ def script(op):
     while not (os.path.exists(xid) and os.path.getsize(xid) > 1) and time.monotonic() < end:
         time.sleep(0.02)
     print("the guest got the window's id:",
-          int(open(xid).read()) == app.x_window(f"{tcl.call('.pane.top.right', 'getframe', 'user_1')}.container"))
+          int(open(xid).read()) == container(op.root.nametowidget(tcl.call(".pane.top.right", "getframe", "user_1"))))
     print("forwards events to:", int(os.environ["AXIS_FORWARD_EVENTS_TO"]) == op.root.winfo_id())
     with open(os.path.join(os.path.dirname(xid), "words")) as f:
         words = f.read().split(None, 4)
     grid = dict(zip(*[iter(map(str, tcl.splitlist(tcl.call("grid", "info", ".gladevcp"))))] * 2))
     print("GladeVCP: column", grid["-column"], "row", grid["-row"], *words[:4],
-          int(words[4].split()[0]) == app.x_window(".gladevcp"), words[4].split(None, 1)[1].strip(),
+          int(words[4].split()[0]) == container(op.root.nametowidget(".gladevcp")), words[4].split(None, 1)[1].strip(),
           "| linked by", halcmd("-s", "show", "pin", "side.level").split()[-1])
     op.key("F4")
     op.key("F4")

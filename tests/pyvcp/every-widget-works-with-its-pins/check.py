@@ -140,6 +140,10 @@ def buttons(b: Bench) -> None:
         check(f"button {n} pressed", b.get("button.0"), True)
         b.event(press, f"<ButtonRelease-{n}>")
         check(f"button {n} released", b.get("button.0"), False)
+    for n in (4, 5):
+        b.event(press, f"<ButtonPress-{n}>")
+        check("the wheel presses nothing", b.get("button.0"), False)
+        b.event(press, f"<ButtonRelease-{n}>")
     b.event(go, "<Enter>", "<ButtonPress-1>")
     check("only its own pin", (b.get("go"), b.get("button.0")), (True, False))
     b.event(go, "<ButtonRelease-1>")

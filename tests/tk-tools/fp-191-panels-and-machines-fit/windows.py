@@ -12,6 +12,7 @@ from axis.icons import Icons
 from kerf import launch_windows, tkstyle
 from kerf.haltools import latency_view
 from kerf.halscope import picker
+from kerf.tkscroll import Scrolled
 from vismach import Capture, CylinderZ, Hud
 from vismach.view import View
 import fit_check
@@ -27,7 +28,9 @@ def panel(path):
         panel.number += 1
         os.chdir(path.parent)
         vcpparse.filename = path.name
-        vcpparse.create_vcp(root, component)
+        view = Scrolled(root)           # as the program pyvcp does
+        view.pack(fill="both", expand=True)
+        vcpparse.create_vcp(view.inner, component)
         component.ready()
         root.bind("<Destroy>", lambda event: event.widget is root and component.exit())
     return make
@@ -69,8 +72,8 @@ def source(root):
     return SimpleNamespace(book=picker.SourcePicker(root, 3, SimpleNamespace(kind="", name=""), None).book)
 
 
-# Not everything: one panel is higher than any screen; one has colours that its author chose.
-LEFT_OUT = ("15-everything-default", "05-numbers")
+# Not everything: one has colours that its author chose.
+LEFT_OUT = ("05-numbers",)
 PROGRAMS = {p.stem: panel(p)
             for p in (*sorted(PANELS.glob("*.xml")), PANELS / "../../panels-can-be-read-in-both-themes/panel.xml",
                                       PANELS / "../../../../configs/sim/panel/panel.xml") if p.stem not in LEFT_OUT}
