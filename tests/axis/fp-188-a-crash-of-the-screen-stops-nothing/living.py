@@ -16,7 +16,7 @@ PINS = ("pyvcp.held", "pyvcp.checked", "pyvcp.level-f", "pyvcp.wheel", "pyvcp.la
 
 
 def panel_widget(op, kind):
-    return next(w for w in op.app.panel.winfo_children()[0].winfo_children() if type(w).__name__ == kind)
+    return next(w for w in op.app.panel.inner.winfo_children()[0].winfo_children() if type(w).__name__ == kind)
 
 
 def look(op, out):
