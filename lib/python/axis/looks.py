@@ -130,10 +130,13 @@ class LooksPart:
         if root.winfo_ismapped():
             tkfit.enlarge(root, asked)
         else:
-            root.geometry("{}x{}".format(*map(min, map(max, asked, map(self.style.px, USUAL_WINDOW)), room)))
+            root.geometry("{}x{}".format(*map(min, map(max, asked, self.usual_size()), room)))
         root.tk.call("::axis::break_menus")
         for label in self.widgets.help_window.winfo_children():
             label.configure(wraplength=dialogs.letters(root, HELP_LETTERS))
+
+    def usual_size(self):
+        return tuple(map(self.style.px, USUAL_WINDOW))
 
     def places(self):
         """What a user's file may choose about the window: the command that sets it, and the words of the value."""
@@ -278,3 +281,4 @@ class LooksPart:
 
     def set_scale(self, scale):
         self.change("interface_scale", scale, float)
+        tkfit.enlarge(self.root, self.usual_size())      # as if it had started so: lines of the program have their room

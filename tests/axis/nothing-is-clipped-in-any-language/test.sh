@@ -5,7 +5,7 @@
 . "$TEST_DIR/../lib/machine.sh"
 "$top/scripts/message-strings" --check "$top"/src/po/*.po && echo "catalogues are complete: $(cd "$top/src/po" && echo *.po)"
 export LANG=C.UTF-8
-all=${LOOKS:-1024x600 long:1:light long:2:dark:touch,1366x768 de:1.5:light de::dark:touch,1920x1080 en:1.5:light en:1.5:light:touch,3840x2160 fr::light:touch fr:2:dark}
+all=${LOOKS:-1024x600 long:1:light long:2:dark:touch,1366x768 de:1.5:light de::dark:touch,1920x1080 en:2:light en:1.5:light en:1.5:light:touch,3840x2160 fr::light:touch fr:2:dark}
 while read -rd, size looks; do
     for language in $(tr ' ' '\n' <<< "$looks" | sed 's/:.*//' | uniq); do
         echo "== $size, $language"
