@@ -31,6 +31,7 @@ void axis_zero_eoffsets(struct motion *m)
         simple_tp_adopt(&m->axis[n].ext_offset_tp, 0.0, 0.0, 0.0);
         m->axis[n].old_eoffset_counts = hal_get_si32(m->pins->axis[n].eoffset_counts);
         m->axis[n].eoffset_counts_known = 1;
+        hal_set_real(m->pins->axis[n].eoffset_request, 0.0);
     }
 }
 

@@ -39,3 +39,17 @@ sleep(1)
 poll()
 print(f"in a program: {min(abs(z + 4) for z in seen):.4f} from Z-4 at the least, ends at {s.joint_position[2]:.4f}",
       messages())
+# Power off and on: there is no offset then, and none asked for, until the counts change.
+setp("z_level_compensation.enable-in", 0)
+sleep(2)
+halcmd("unlinkp", "axis.z.eoffset-counts")
+for step in ("counts", "off and on", "counts again"):
+    if "on" in step and "off" in step:
+        c.state(STATE_OFF)
+        c.wait_complete()
+        on(home=False)
+    else:
+        setp("axis.z.eoffset-counts", int(getp("axis.z.eoffset-counts")) + 1000)
+    sleep(2)
+    ask, have = (float(getp(f"axis.z.{pin}")) for pin in ("eoffset-request", "eoffset"))
+    print(f"{step}: asked for", "nothing" if ask == 0 else "something", ask == have or (ask, have))
