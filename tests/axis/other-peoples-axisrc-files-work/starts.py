@@ -52,7 +52,9 @@ def increments(op, app, tcl, user, keys, held):
     keys("i")
     print("next in the new list:", app.vars.jogincrement.get(), end=" ")
     keys("c")
-    print("jog speed:", held("Up"))
+    print("jog speed:", held("Up"), end=" ")
+    user["faster"]()
+    print("by the slider's variable:", app.vars.jog_speed.get(), held("Up"))
 
 
 def pages(op, app, tcl, user, keys, held):

@@ -9,6 +9,6 @@ for n, text in enumerate([_("Continuous")] + steps):
     Tkinter.Radiobutton(row, text=text, value=text, variable="jogincrement", indicatoron=0, name="s%d" % n, takefocus=0).pack(side="left")
 choose("0.1mm")
 vars.jog_speed.set(600)
-def slow():
-    root_window.tk.call("set", "jog_slider_val", 0.3)
+def faster():
+    root_window.tk.call("set", "jog_slider_val", 0.5)
 root_window.bind("<Key-F6>", lambda e: choose(steps[3]))
