@@ -66,12 +66,12 @@ for name, (text, x) in MISTAKES.items():
     if (s.task_state == STATE_ON
             and (run("G0 X3\nM2\n") != RCS_DONE or abs(poll().position[0] - 3) > 1e-6 or not off() or messages())):
         print("    the next program does not run", xyz())
-# MDI: what was queued behind the mistake is dropped.
+# MDI: what was queued behind the mistake is dropped, and the move before it is stopped.
 mdi("G0 X0")
 messages()
 for line in ("M3 S500", "M66 P0 L3 Q0.5", "G1 F1000 X2", "G1 X[1/0]", "G1 X5", "M8"):
     c.mdi(line)
 c.wait_complete(10)
 sleep(0.6)
-print("MDI queue:", messages(), xyz(), "off" if off() else "STILL ON", poll().queued_mdi_commands)
+print("MDI queue:", messages(), 0 < poll().position[0] < 2 and not s.current_vel, "off" if off() else "STILL ON", poll().queued_mdi_commands)
 print("and on:", mdi("G0 X3"), xyz()[0], messages())
