@@ -73,5 +73,6 @@ for line in ("M3 S500", "M66 P0 L3 Q0.5", "G1 F1000 X2", "G1 X[1/0]", "G1 X5", "
     c.mdi(line)
 c.wait_complete(10)
 sleep(0.6)
-print("MDI queue:", messages(), 0 < poll().position[0] < 2 and not s.current_vel, "off" if off() else "STILL ON", poll().queued_mdi_commands)
+print("MDI queue:", messages(), 0 < poll().position[0] < 2 and not s.current_vel, "off" if off() else "STILL ON",
+      poll().queued_mdi_commands)
 print("and on:", mdi("G0 X3"), xyz()[0], messages())
