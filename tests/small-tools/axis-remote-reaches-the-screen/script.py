@@ -36,7 +36,8 @@ def conversation():
 
 
 print("before:", *ask("--ping"), *ask("-r"))
-remote.serve(root, Screen(), lambda: bool(busy))
+remote.serve(root)
+root.tk.createcommand("remote", remote.answers(root, Screen(), lambda: bool(busy)))
 thread = threading.Thread(target=conversation)
 thread.start()
 root.mainloop()
