@@ -33,11 +33,11 @@ class Element:
 
 
 class NoPanel(Exception):
-    """The file has no element pyvcp."""
+    """The root element of the file is no pyvcp."""
 
 
 def read(path):
-    """The element pyvcp of a file. Raises OSError, NoPanel, and SystemExit where the XML is broken."""
+    """The root element pyvcp of a file. Raises OSError, NoPanel, and SystemExit where the XML is broken."""
     parser = expat.ParserCreate()
     top = Element("", {}, 0)
     opened = [top]
@@ -59,16 +59,10 @@ def read(path):
         except expat.ExpatError as error:
             raise SystemExit(f"Error: could not open {path} !\n{path}:{error.lineno}:{error.offset + 1}: "
                              f"{expat.ErrorString(error.code)}") from None
-    for element in walk(top):
-        if element.name == "pyvcp":
-            return element
-    raise NoPanel("Error: no pyvcp element in file!")
-
-
-def walk(element):
-    for child in element.children:
-        yield child
-        yield from walk(child)
+    root = top.children[0]
+    if root.name != "pyvcp":
+        raise NoPanel("Error: no pyvcp element in file!")
+    return root
 
 
 def names():

@@ -98,9 +98,13 @@ class Scrolled(tk.Frame):
 
     def look(self):
         self.soon_waits = False
-        self.layout()
-        self.after_cancel(self.waiting)
-        self.waiting = self.after(LOOK_MS, self.look)
+        try:
+            self.layout()
+            self.after_cancel(self.waiting)
+            self.waiting = self.after(LOOK_MS, self.look)
+        except tk.TclError:
+            if str(self) in Scrolling.of(self).views:       # else a signal ended the program meanwhile
+                raise
 
     def soon(self):
         """Something inside has changed."""

@@ -19,6 +19,7 @@ session = Session("pyvcpbad")
 CASES = (
     ("<pyvcp>\n<led>\n</pyvcp>", 1, ["Error: could not open bad.xml !", "bad.xml:3:3: mismatched tag"]),
     ("<panel><led/></panel>", 0, ["Error: no pyvcp element in file!"]),
+    ("<panels><pyvcp><led/></pyvcp></panels>", 0, ["Error: no pyvcp element in file!"]),
     ("", 1, ["bad.xml:1:1: no element found"]),
     ("<pyvcp>\n<label>\n<text>Hello</text></label></pyvcp>", 1,
      ["Error evaluating xml file:\nWidget label, Property text\nNameError: name 'Hello' is not defined\nbad.xml:2"]),

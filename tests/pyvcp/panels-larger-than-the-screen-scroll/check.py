@@ -120,6 +120,21 @@ def wide(folder: str) -> None:
     p.close()
 
 
+def ended(folder: str) -> None:
+    """Signals, which come between any two steps, end a panel without a word."""
+    for number in range(5):
+        with open(Path(folder, "told"), "w+") as told:
+            panel = subprocess.Popen(["pyvcp", "-c", "ended", "wide.xml"], cwd=folder, env=session.env, stderr=told)
+            end = time.monotonic() + 30
+            while "c0" not in session.command(folder, "halcmd", "-s", "show", "pin", "ended")[1] and time.monotonic() < end:
+                time.sleep(0.05)
+            time.sleep(0.3 + 0.03 * number)
+            panel.terminate()
+            check("status at the end", panel.wait(30), 0)
+            told.seek(0)
+            check("told at the end", told.read(), "")
+
+
 def main(folder: str) -> None:
     rows = "".join(f"<button><halpin>'b{n}'</halpin><text>'Button {n}'</text></button>"
                    + ("<spinbox><halpin>'number'</halpin><initval>50</initval></spinbox>" if n == 20 else "")
@@ -130,6 +145,7 @@ def main(folder: str) -> None:
                                         "</vbox></pyvcp>")
     tall(folder)
     wide(folder)
+    ended(folder)
 
 
 if __name__ == "__main__":
