@@ -99,7 +99,8 @@ class Jogger:
             speed = self.speed_of(number, joint_mode, True) if fast else app.get_jog_speed(number)
             own = app.replaced("jog_on")
             if own:
-                self.left_to_user[owner] = number
+                if not self.distance():          # nothing ends an increment
+                    self.left_to_user[owner] = number
                 own(number, direction * speed)
                 return True
         speed *= direction

@@ -94,6 +94,12 @@ def taken_away(op, app, tcl, user, keys, held):
 def replaced(op, app, tcl, user, keys, held):
     home(op)
     print("Z:", held("Next"), user["jogs"], "fast X:", held("shift", "Right"), end=" ")
+    app.vars.jogincrement.set("1mm")
+    before = op.position(0)
+    keys("Right")
+    op.wait(0.5)
+    print("step:", round(op.position(0) - before, 4), end=" ")
+    keys("c")
     user["door_closed"] = False
     print("door open:", held("Right"), "door" in user["refused"])
     user["door_closed"] = True
