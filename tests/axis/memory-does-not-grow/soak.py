@@ -42,9 +42,12 @@ def script(op):
     grown = {}
     for name in samples[-1]:
         kb = [s[name][0] for s in samples if name in s]
-        middle = samples[LOOKS // 2].get(name)
-        # the middle of five looks: a child that is started makes pages private, a new estimate takes room for a while
-        if middle and (median(kb[-5:]) - median(kb[8:13]) > LIMIT_KB or samples[-1][name][1] > middle[1] + 2):
+        if len(kb) < LOOKS:          # it came and goes again
+            continue
+        # by the least and by the middle of five looks: for a while a child that is started makes pages private, a new
+        # estimate or preview takes room, and between two of them there is less than else
+        growth = min(of(kb[-5:]) - of(kb[8:13]) for of in (min, median))
+        if growth > LIMIT_KB or samples[-1][name][1] > samples[LOOKS // 2][name][1] + 2:
             grown[name] = [s.get(name) for s in samples]
     if len(samples[-1]) > len(samples[LOOKS // 2]) + 2:
         grown["processes"] = [len(s) for s in samples]

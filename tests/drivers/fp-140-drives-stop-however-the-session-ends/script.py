@@ -10,12 +10,24 @@ way, flag = os.environ["WAY"], Path(os.environ["TURNING"])
 on(home=False)
 c.mode(MODE_MDI)
 c.wait_complete()
-c.mdi("M3 S600")
-for _try in range(1000):
-    sleep(0.01)
-    if flag.exists():
+
+
+def turning(tries):
+    for _try in range(tries):
+        sleep(0.01)
+        if flag.exists():
+            return True
+        time.sleep(0.01)        # the drives live in real time
+    return False
+
+
+# A drive that has not answered yet when the spindle starts waits for the next start.
+for _start in range(20):
+    mdi("M5")
+    turning(30)
+    mdi("M3 S600")
+    if turning(100):
         break
-    time.sleep(0.01)            # the drives live in real time
 print("the drives turn" if flag.exists() else "the drives do not turn")
 if way == "launcher":
     os.kill(session.processes("linuxcnc")[0], 9)
