@@ -151,7 +151,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
             except linuxcnc.error as e:
                 self.notifications.add("error", str(e))
             except tk.TclError:
-                if self.root.children:
+                if not self.gone():
                     raise
             except Exception as e:
                 self.failed(e)
@@ -171,13 +171,23 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         if issubclass(kind, KeyboardInterrupt):      # the launcher ends the session
             self.root.destroy()
             return
+        gone = self.gone()
+        if gone and isinstance(error, tk.TclError):  # what still wanted to draw at the end
+            return
         text = "".join(traceback.format_exception(kind, error, trace))
         print(text, file=sys.stderr)
-        if not isinstance(error, tk.TclError) or self.root.children:
-            path = self.recorder.write(text)
+        path = self.recorder.write(text)
+        if not gone:
             self.notifications.add("error",
                                    f"{kind.__name__}: {error}"
                                    + (f"\n{self.translate('Report:')} {path}" if path else ""))
+
+    def gone(self):
+        """Is the window no more?"""
+        try:
+            return not int(self.root.tk.call("winfo", "exists", "."))
+        except tk.TclError:              # "application has been destroyed"
+            return True
 
     def running(self):
         self.stat.poll()

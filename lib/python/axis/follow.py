@@ -46,7 +46,7 @@ class FollowPart:
         try:
             alive = self.tick()
         except tk.TclError:
-            if not self.root.children:       # the window is gone
+            if self.gone():
                 return
             self.failed_once(sys.exc_info()[1])
         except Exception as e:
@@ -313,7 +313,7 @@ class FollowPart:
         except linuxcnc.error:
             pass            # tick() tells that the controller is gone
         except Exception as e:
-            if not self.root.children:       # the window is gone
+            if self.gone():
                 return
             self.failed_once(e)
         self.root.after(ERROR_POLL_MS, self.poll_errors)
