@@ -14,6 +14,7 @@
 #include <hal.h>
 #include <hal_parport.h>
 #include "components/comp_util.h"
+#include "drivers/pulse.h"
 
 MODULE_LICENSE("GPL");
 MODULE_AUTHOR("Kerf developers");
@@ -27,7 +28,6 @@ MODULE_DESCRIPTION("Parallel ports");
 #define CONTROL_DATA_IN 0x20            /* the data pins are inputs */
 #define ECR_PS2 0x20                    /* data direction can be switched */
 #define ECR_EPP 0x94
-#define ROUND_NS 5
 
 static char *cfg = "0x0278";
 RTAPI_MP_STRING(cfg, "address [in|out|x|epp] of each port");
@@ -152,13 +152,10 @@ static void write_port(void *arg, long period)
 static void reset_register(struct port *p, struct latch *latch, rtapi_u32 width, void (*put)(struct port *, rtapi_u8))
 {
     rtapi_u8 value;
-    rtapi_u32 rounds;
     if(latch->shown < 0) return;        /* nothing was written yet */
     value = (rtapi_u8)((latch->shown & ~latch->reset_mask) | latch->reset_value);
     if(value == latch->shown) return;
-    /* At most a quarter of the period. Reading the time takes longer than ROUND_NS; in simulated time, which
-     * stands while a function runs, the number of rounds ends the wait. */
-    for(rounds = width / ROUND_NS; rounds && rtapi_get_time() - latch->written < width; rounds--) {}
+    pulse_wait(latch->written, width);
     put(p, value);
 }
 
@@ -166,8 +163,7 @@ static void reset_register(struct port *p, struct latch *latch, rtapi_u32 width,
 static void reset_port(void *arg, long period)
 {
     struct port *p = arg;
-    rtapi_u32 width = hal_get_ui32(p->reset_time);
-    if(width > (rtapi_u32)(period / 4)) width = hal_set_ui32(p->reset_time, (rtapi_u32)(period / 4));
+    rtapi_u32 width = pulse_width(p->reset_time, period);
     if(p->outputs[DATA]) reset_register(p, &p->data, width, put_data);
     if(p->outputs[CONTROL]) reset_register(p, &p->control, width, put_control);
 }
