@@ -8,6 +8,8 @@ from OpenGL import GL
 from kerf import imagefont
 from PIL import Image, ImageDraw
 
+from .parts import tell
+
 CELL = 9, 15            # of a letter
 FONT, SIZE = "DejaVuSansMono.ttf", 14
 EDGE = 4                # pixels above and below the lines
@@ -23,7 +25,13 @@ def value_of_pin(name):
 
 
 def filled(string, value):
-    return re.sub(r"{[^}]*}", MISSING, string) if value is None else string.format(value)
+    if value is None:
+        return re.sub(r"{[^}]*}", MISSING, string)
+    try:
+        return string.format(value)
+    except (ValueError, IndexError, KeyError) as error:
+        tell(f"{string!r} with the value {value}: {error}")
+        return string
 
 
 def number_of_tag(value, offset):
@@ -118,7 +126,8 @@ class Hud:
         GL.glDisable(GL.GL_DEPTH_TEST)
         GL.glEnable(GL.GL_BLEND)
         GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
-        GL.glWindowPos2i(0, max(height - image.height, 0))
+        GL.glWindowPos2i(0, 0)
+        GL.glBitmap(0, 0, 0, 0, 0, height - image.height, b"")          # below the window where it is higher
         GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
         GL.glDrawPixels(image.width, image.height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, image.tobytes())
         GL.glPopAttrib()

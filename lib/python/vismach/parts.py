@@ -16,9 +16,9 @@ MAX_TOLD = 10           # different errors
 told = set()
 
 
-def tell(error):
-    """On standard error, once."""
-    text = f"vismach: {type(error).__name__}: {error}"
+def tell(what):
+    """An exception or a text on standard error, once."""
+    text = f"vismach: {type(what).__name__}: {what}" if isinstance(what, Exception) else f"vismach: {what}"
     if text not in told and len(told) < MAX_TOLD:
         told.add(text)
         print(text, file=sys.stderr)

@@ -50,9 +50,9 @@ class Mesh:
 
 class Shape:
     """A primitive: mesh(*numbers) makes it, anew when a pin has changed."""
+    comp = None         # a subclass may say its own before or after the shape's start
 
     def __init__(self, *args):
-        self.comp = None
         if args and (isinstance(args[0], hal.component) or hasattr(args[0], "newpin")):
             self.comp, args = args[0], args[1:]
         wanted = self.arguments

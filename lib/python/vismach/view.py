@@ -56,7 +56,8 @@ class Camera:
         GLU.gluPerspective(field, width / max(height, 1), 0.01 * self.size, 10 * self.size)
         GL.glMatrixMode(GL.GL_MODELVIEW)
         GL.glLoadIdentity()
-        GL.glLightfv(GL.GL_LIGHT0, GL.GL_POSITION, (1, 2, 3, 0))        # goes with the eye
+        for lamp, place in ((GL.GL_LIGHT0, (1, 2, 3, 0)), (GL.GL_LIGHT1, (-2, -1, 1, 0))):      # go with the eye
+            GL.glLightfv(lamp, GL.GL_POSITION, place)
         GL.glTranslated(self.pan_x, self.pan_y, -distance)
         GL.glRotated(self.lat, *self.vectors[0])
         GL.glRotated(self.lon, *self.vectors[1])
@@ -149,13 +150,15 @@ class View:
         GL.glViewport(0, 0, width, height)
         GL.glClearColor(*BACKGROUND)
         GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
-        for what in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_LIGHT0, GL.GL_COLOR_MATERIAL,
+        for what in (GL.GL_DEPTH_TEST, GL.GL_LIGHTING, GL.GL_LIGHT0, GL.GL_LIGHT1, GL.GL_COLOR_MATERIAL,
                      GL.GL_NORMALIZE, GL.GL_BLEND):
             GL.glEnable(what)
         GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
         GL.glLightModeli(GL.GL_LIGHT_MODEL_TWO_SIDE, 1)
         GL.glLightModelfv(GL.GL_LIGHT_MODEL_AMBIENT, (.35, .35, .35, 1))
         GL.glLightfv(GL.GL_LIGHT0, GL.GL_DIFFUSE, (.75, .75, .75, 1))
+        GL.glLightfv(GL.GL_LIGHT1, GL.GL_DIFFUSE, (.3, .3, .3, 1))
+        GL.glLightfv(GL.GL_LIGHT1, GL.GL_SPECULAR, (0, 0, 0, 1))
         GL.glColorMaterial(GL.GL_FRONT_AND_BACK, GL.GL_AMBIENT_AND_DIFFUSE)
         GL.glColor3d(.7, .7, .7)
         self.camera.apply(width, height)

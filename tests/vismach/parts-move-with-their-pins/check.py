@@ -19,7 +19,7 @@ os.environ.update(session.env)
 sys.path.insert(0, str(TOP / "lib/python"))
 import numpy as np  # noqa: E402
 import vismach as v  # noqa: E402
-from vismach.parts import visit  # noqa: E402
+from vismach import parts  # noqa: E402
 from vismach.view import MAX_TRACE, View  # noqa: E402
 
 mistakes: list[str] = []
@@ -71,18 +71,27 @@ class Bench:
         self.root.update()
         self.view.redraw()
 
+    @staticmethod
+    def view_errors() -> str:
+        """What was told of parts that failed, since the last look."""
+        told = "; ".join(sorted(parts.told))
+        parts.told.clear()
+        return told
+
     def where(self, make) -> np.ndarray:
         """The matrix inside a transform, made by make([part])."""
         inner = v.Capture()
         self.draw(make([inner]))
         return np.linalg.inv(self.base.t) @ inner.t
 
-    def pixel(self, x: int, y: int) -> tuple[int, int, int]:
+    def pixels(self, x: int, y: int, width: int, height: int) -> bytes:
         """Of the buffer that was drawn before; from the lower left."""
         self.view.paint(400, 400)
         v.glFinish()
-        data = v.glReadPixels(x, y, 1, 1, v.GL_RGB, v.GL_UNSIGNED_BYTE)
-        return tuple(bytes(data))
+        return bytes(v.glReadPixels(x, y, width, height, v.GL_RGB, v.GL_UNSIGNED_BYTE))
+
+    def pixel(self, x: int, y: int) -> tuple[int, int, int]:
+        return tuple(self.pixels(x, y, 1, 1))
 
 
 def transforms(b: Bench) -> None:
@@ -132,7 +141,7 @@ def transforms(b: Bench) -> None:
             if name.startswith("__"):
                 raise AttributeError(name)
             return lambda: calls.append(name)
-    visit(Part())
+    parts.visit(Part())
     check("order of a part's methods", calls, ["apply", "capture", "draw", "traverse", "unapply"])
 
 
@@ -182,6 +191,15 @@ def shapes(b: Bench) -> None:
     check("coords() of a subclass",
           (own.made[0].min(axis=0).round(6).tolist(), own.made[0].max(axis=0).round(6).tolist()),
           ([-.5, -.5, -2], [.5, .5, 0]))
+
+    class OtherTool(Tool):
+        """The component first, then the shape's own start."""
+
+        def __init__(self, comp):
+            self.comp = comp
+            v.CylinderZ.__init__(self)
+    b.draw(OtherTool(c))
+    check("a component that was there before", b.view_errors(), "")
     # a red box in the middle hides what is behind, and moves with its pin
     c["x"] = 0.0
     red = v.HalTranslate([v.Color((1, 0, 0, 1), [v.BoxCentered(4, 4, 4)])], c, "x", 1, 0, 0)
@@ -195,6 +213,20 @@ def shapes(b: Bench) -> None:
     r, g, _ = b.pixel(200, 200)
     check("moved away", (r < 50, g > 100), (True, True))
     c["x"] = 0.0
+
+
+def light(b: Bench) -> None:
+    """Every side of a dark part stands out against the background."""
+    camera, dark = b.view.camera, v.Color((.2, .3, .4, 1), [v.BoxCentered(6, 6, 6)])
+    before = camera.lat, camera.lon
+    for camera.lon in range(0, 360, 30):
+        for camera.lat in (-150, -120, -60, -30):
+            b.draw(dark)
+            seen = np.frombuffer(b.pixels(0, 200, 400, 1), dtype=np.uint8).reshape(-1, 3).astype(int)
+            away = np.abs(seen - seen[0]).sum(axis=1)[135:266]
+            if away.min() < 15:
+                mistakes.append(f"lat {camera.lat}, lon {camera.lon}: a side is as dark as the background: {seen[200]}")
+    camera.lat, camera.lon = before
 
 
 def files(b: Bench, folder: str) -> None:
@@ -261,6 +293,13 @@ def texts(b: Bench) -> None:
     b.view.hud = hud
     b.draw()
     check("box at the upper left", b.pixel(2, 398), (255, 0, 0))
+    hud.add_pin("{:d} of a float", "vm.x")
+    b.draw(v.Color((0, 0, 1, 1), [v.BoxCentered(4, 4, 4)]))
+    check("a format that does not fit its pin", (hud.texts()[-1], b.pixel(200, 200)[2] > 60), ("{:d} of a float", True))
+    check("is told", "{:d} of a float" in b.view_errors(), True)
+    few = b.pixels(0, 360, 100, 40)
+    hud.add_txt("\n".join("more" for _ in range(100)))
+    check("the first lines of more than the window has room for", b.pixels(0, 360, 100, 40) == few, True)
     hud.hide()
     check("hide", (hud.texts(), b.pixel(2, 398) == (255, 0, 0)), ([], False))
     b.view.hud = v.Hud()
@@ -384,6 +423,7 @@ if __name__ == "__main__":
             bench = Bench()
             transforms(bench)
             shapes(bench)
+            light(bench)
             files(bench, scratch)
             guides(bench)
             texts(bench)
