@@ -7,6 +7,7 @@
 #include "rtapi_stdint.h"
 
 #define RTAPI_PARPORT_REGISTERS 8 /* from base on; the last one stands for the ECR */
+#define RTAPI_PARPORT_OTHER_DEVICE 0x80000000u /* modes: registers that are no parallel port, which Linux does not know */
 
 typedef struct rtapi_parport {
     unsigned short base;    /* I/O address of the data register */

@@ -53,7 +53,7 @@ static int export_pins(void)
     if(!speaker) return -ENOMEM;
     for(n = 0; n < PINS; n++)
         COMP_TRY(hal_pin_new_bool(comp_id, HAL_IN, &speaker->pin[n], 0, "speaker.0.pin-%02d-out", n));
-    COMP_TRY(hal_parport_get(comp_id, &speaker->io, BASE, 0, 0));
+    COMP_TRY(hal_parport_get(comp_id, &speaker->io, BASE, 0, RTAPI_PARPORT_OTHER_DEVICE));
     return hal_export_funct("speaker.0.write", write_pins, NULL, 0, 0, comp_id);
 }
 

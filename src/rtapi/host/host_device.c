@@ -155,7 +155,7 @@ static int claim(const char *module_name, rtapi_parport_t *port, int n)
 int rtapi_parport_get(const char *module_name, rtapi_parport_t *port, unsigned short base, unsigned short base_hi,
                       unsigned int modes)
 {
-    (void)modes;
+    const bool other_device = modes & RTAPI_PARPORT_OTHER_DEVICE;
     unsigned found_base = 0, found_hi = 0;
     int n = -1;
     *port = (rtapi_parport_t){.base = base, .base_hi = base_hi, .fd = -1};
@@ -164,14 +164,14 @@ int rtapi_parport_get(const char *module_name, rtapi_parport_t *port, unsigned s
         port->memory[1] = STATUS_LOW;
         return 0;
     }
-    if (base < LINUX_PORTS) {
+    if (base < LINUX_PORTS && !other_device) {
         if (!linux_port(base, &found_base, &found_hi)) {
             rtapi_print_msg(RTAPI_MSG_ERR, "Linux parallel port %d not found\n", base);
             return -ENOENT;
         }
         n = base;
     } else {
-        for (int i = 0; i < LINUX_PORTS && n < 0; i++) {
+        for (int i = 0; i < LINUX_PORTS && n < 0 && !other_device; i++) {
             if (linux_port(i, &found_base, &found_hi) && found_base == base) {
                 n = i;
             }
@@ -185,8 +185,10 @@ int rtapi_parport_get(const char *module_name, rtapi_parport_t *port, unsigned s
         return -host_io_errno();
     }
     if (n < 0) {
-        rtapi_print_msg(RTAPI_MSG_ERR,
-                        "No parport registered at 0x%x. This is not always an error. Continuing.\n", base);
+        if (!other_device) {
+            rtapi_print_msg(RTAPI_MSG_ERR,
+                            "No parport registered at 0x%x. This is not always an error. Continuing.\n", base);
+        }
         return 0;
     }
     port->base = (unsigned short)found_base;

@@ -17,7 +17,8 @@ static int sim_init(const char *name);
 #include SOURCE
 #undef hal_init
 
-static const unsigned short addresses[] = {0x378, 0x379, 0x37a, 0x77a, 0x278, 0x279, 0x27a, 0x67a, 0x61};
+static const unsigned short addresses[] = {0x378, 0x379, 0x37a, 0x77a, 0x278, 0x279, 0x27a, 0x67a, 0x61,
+                                           0x3fb, 0x3fc, 0x3fe, 0x2fb, 0x2fc, 0x2fe};
 #define REGISTERS (int)(sizeof addresses / sizeof addresses[0])
 
 static struct sim {
@@ -45,8 +46,8 @@ static void rtapi_outb(unsigned char value, unsigned short address)
 
 int sim_get(const char *module_name, rtapi_parport_t *port, unsigned short base, unsigned short base_hi, unsigned int modes)
 {
-    (void)module_name; (void)base_hi; (void)modes;
-    *port = (rtapi_parport_t){.base = base, .base_hi = base == 0x378 ? 0x778 : base == 0x278 ? 0x678 : 0, .fd = -1};
+    (void)module_name; (void)base_hi;
+    *port = (rtapi_parport_t){.base = base, .base_hi = modes ? 0 : base == 0x378 ? 0x778 : base == 0x278 ? 0x678 : 0, .fd = -1};
     return 0;
 }
 
