@@ -86,6 +86,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.last_increment = None
         self.seen_maxvel = None
         self.maxvel_quiet_until = 0.0
+        self.follows_maxvel = False  # the slider is moved to what the machine has
         self.picture_conditions = None   # under which the preview was made
         self.stale_since = None      # when something changed that the preview does not know
         self.select_moved = self.settings.flag("DISPLAY", "SELECT_MOVED_AXIS")
@@ -309,6 +310,15 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
         self.show_speed(shown, units)
         if kind == "maxvel" and send:
             self.set_maxvel(self.to_machine(units) / 60)
+
+    def slider_moved(self, kind):
+        """By its variable: the hand and the keys of the screen come here, too, and user code."""
+        if kind == "maxvel" and self.follows_maxvel:
+            return
+        before = self.vars.maxvel_speed.get()
+        self.slider(kind, None, send=False)
+        if kind == "maxvel" and self.vars.maxvel_speed.get() != before:
+            self.slider(kind, None)
 
     @staticmethod
     def show_speed(variable, units):

@@ -11,7 +11,7 @@ from kerf.glpath import Item, Scene
 from . import shapes
 from .camera import Camera
 from .dro import SYSTEMS
-from .program import beyond
+from .program import beyond, extents, foam_planes
 
 COLOURS = {     # names of the X resources *Togl.<name>
     "back": "#000000", "straight_feed": "#ffffff", "arc_feed": "#ffffff", "traverse": "#4c8080", "selected": "#00ffff",
@@ -73,8 +73,7 @@ class Composer:
         self.program, self.boxed, self.drawings = program, boxed, drawings
         self.unturned = None, None
         if program is not None:
-            self.foam_z = program.foam_z if program.foam_z is not None else self.s.foam_z
-            self.foam_w = program.foam_w if program.foam_w is not None else self.s.foam_w
+            self.foam_z, self.foam_w = foam_planes(program, self.s)
             self.place_planes()
         self.camera.fit(*self.shown_box())
 
@@ -104,7 +103,7 @@ class Composer:
         p = self.program
         if p is None or p.n_moves == 0:
             return None
-        low, high = p.extents
+        low, high = extents(p, self.s)
         if turn and self.drawings:
             if self.unturned[0] != (turn, about):
                 drawn = np.asarray(self.drawings[0].vertices)
@@ -114,8 +113,6 @@ class Composer:
             low, high = ((*flat, end[2]) for flat, end in zip(self.unturned[1], (low, high)))
         if not all(abs(v) < NO_LIMIT for v in (*low, *high)):
             return None
-        if self.s.foam:
-            low, high = (*low[:2], min(self.foam_z, self.foam_w)), (*high[:2], max(self.foam_z, self.foam_w))
         return low, high
 
     def limits(self):

@@ -181,7 +181,9 @@ class FollowPart:
             shown = v.maxvel_speed.get()
             self.show_speed(v.maxvel_speed, self.to_display(60 * min(top, s.max_velocity)))
             if v.maxvel_speed.get() != shown:
+                self.follows_maxvel = True
                 v.maxvel_slider_val.set(max(SLIDER_LEAST, position(60 * s.max_velocity, top)))
+                self.follows_maxvel = False
 
     def follow_modes(self):
         s = self.stat

@@ -19,6 +19,7 @@ DARK = {"dro_back": "#0d1013", "dro": "#e8f0f7", "running": "#904848", "number":
         "trough": "#44474c", "mark": "#1e1f23"}
 TOUCH = 1.7                     # buttons and sliders for gloves, where the screen has room for them
 USUAL_WINDOW, SASH = (1280, 860), 10
+PUT_SASH = ".pane sash place 0"
 LEAST_PANEL = 150, 64           # of a panel that scrolls
 PANEL_COST = 0.75               # smaller letters than that, of what they were without, are worse than a panel that scrolls
 CODE_LINES = 6                   # of the program in sight on a low screen, if there is room
@@ -143,14 +144,19 @@ class LooksPart:
         tcl, found = self.root.tk, {}
         tcl.call("update", "idletasks")
         for ask, put in (("wm minsize .", "wm minsize ."), ("wm geometry .", "wm geometry ."),
-                         (".pane.bottom.t.text cget -height", ".pane.bottom.t.text configure -height")):
-            found[put] = tcl.eval(ask)
+                         (".pane.bottom.t.text cget -height", ".pane.bottom.t.text configure -height"),
+                         (".pane sash coord 0", PUT_SASH)):
+            if put != PUT_SASH or len(tcl.call(".pane", "panes")) > 1:
+                found[put] = tcl.eval(ask)
         return found
 
     def put(self, chosen):
         """The last word about these places."""
         for command, value in chosen.items():
             self.root.tk.eval(f"{command} {value}")
+        if PUT_SASH in chosen and not self.root.winfo_ismapped():      # the panes take their sizes when they are seen
+            again = f"{PUT_SASH} {chosen[PUT_SASH]}"
+            self.root.tk.eval(f"bind .pane <Map> {{bind .pane <Map> {{}}; after idle {{after idle {{{again}}}}}}}")
 
     def limit(self, views, most):
         """What each view asks for at most, in the pixels of a usual screen."""

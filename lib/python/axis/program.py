@@ -211,6 +211,21 @@ def parameter(path, number):
     return next((float(row[1]) for row in rows if len(row) == 2 and row[0] == str(number)), 0.0)
 
 
+def foam_planes(program, settings):
+    """Heights of the planes XY and UV of a foam cutter, inches: of the program, else of the INI file."""
+    return (settings.foam_z if program.foam_z is None else program.foam_z,
+            settings.foam_w if program.foam_w is None else program.foam_w)
+
+
+def extents(program, settings):
+    """Least and greatest X, Y and Z without tool lengths, inches; Z of a foam cutter: its planes."""
+    low, high = program.extents
+    if settings.foam:
+        planes = foam_planes(program, settings)
+        low, high = (*low[:2], min(planes)), (*high[:2], max(planes))
+    return low, high
+
+
 def beyond(program, settings, stat, axis):
     """Whether a program leaves the soft limits of X, Y or Z (axis 0 to 2): (below the least, above the greatest)."""
     if "XYZ"[axis] not in settings.axes or program.n_moves == 0:
@@ -264,7 +279,7 @@ def properties(path, source, program, settings, metric, translate=str, run_time=
               else translate("%d seconds") % seconds),
              (translate("Tool Change List"), " ".join(str(tool) for _, tool in program.tools))]
     if program.n_moves:
-        low, high = program.extents
+        low, high = extents(program, settings)
         rows += [(translate("%s bounds") % c,
                   translate("%s to %s = %s")
                   % (fmt % (low[i] * scale), fmt % (high[i] * scale), length(high[i] - low[i])))

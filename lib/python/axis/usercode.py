@@ -35,6 +35,8 @@ class UserPart:
     def run_user_file(self):
         given = self.settings.find("DISPLAY", "USER_COMMAND_FILE")
         path = os.path.expanduser(given or "~/.axisrc")
+        for name in REPLACEABLE:
+            vars(self).pop(name, None)
         self.user = self.user_names()
         self.given = dict(self.user)
         if not os.path.exists(path):
@@ -52,9 +54,8 @@ class UserPart:
                         self.translate("The error given below occurred in your ~/.axisrc; AXIS goes on "
                                        "without the rest of it."),
                         "error", 0, self.translate("OK"), extra=text)
-        for name in REPLACEABLE:
-            if self.replaced(name):
-                setattr(self, name, self.user[name])
+        for name in REPLACEABLE:         # whenever the file puts its own there, at once or later
+            setattr(self, name, lambda *words, n=name, **named: self.user[n](*words, **named))
 
     def replaced(self, name):
         """The function that a user's file has put in the place of the screen's, or None."""

@@ -130,8 +130,8 @@ class WindowPart(LooksPart):
                      "optional_stop", "has_ladder", "has_editor", "kinematics_type", "max_queued_mdi_commands"):
             getattr(self.vars, name).trace_add("write", self.state_changed)
         self.vars.jogincrement.trace_add("write", self.increment_chosen)
-        for kind in ("jog", "ajog"):     # user code may move the sliders by their variables
-            getattr(self.vars, f"{kind}_slider_val").trace_add("write", lambda *_, k=kind: self.slider(k, None))
+        for kind in ("jog", "ajog", "maxvel"):   # user code may move the sliders by their variables
+            getattr(self.vars, f"{kind}_slider_val").trace_add("write", lambda *_, k=kind: self.slider_moved(k))
         self.state_pending = False
         self.state_changed()
 

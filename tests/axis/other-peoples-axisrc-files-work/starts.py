@@ -55,6 +55,16 @@ def increments(op, app, tcl, user, keys, held):
     print("jog speed:", held("Up"), end=" ")
     user["faster"]()
     print("by the slider's variable:", app.vars.jog_speed.get(), held("Up"))
+    before = op.stat.max_velocity
+    user["slower"]()
+    op.wait(0.3)
+    print("max velocity by its variable, mm/min:", app.vars.maxvel_speed.get(),
+          round(op.stat.max_velocity * 60), "was:", round(before * 60), end=" ")
+    keys("apostrophe")
+    print("a key more:", app.vars.maxvel_speed.get(), round(op.stat.max_velocity * 60), end=" ")
+    app.command.maxvel(20)
+    op.wait(3)
+    print("of another client:", app.vars.maxvel_speed.get(), round(op.stat.max_velocity * 60))
 
 
 def pages(op, app, tcl, user, keys, held):
@@ -82,7 +92,7 @@ def taken_away(op, app, tcl, user, keys, held):
     keys("KP_Subtract", "KP_Subtract", "5", "r", "t", "b", "F7")
     print("feed:", app.vars.feedrate.get(), "idle:", op.stat.interp_state == linuxcnc.INTERP_IDLE, "mist:",
           bool(op.stat.mist), "brake:", op.stat.spindle[0]["brake"], "Up:", held("Up"), "Right:", held("Right"))
-    print("seen:", [name for name in user["pressed"] if name in ("KP_Subtract", "r", "-r", "Right", "-Right")], end=" ")
+    print("seen:", [name for name in dict.fromkeys(user["pressed"]) if name in ("KP_Subtract", "r", "-r", "Right", "-Right")], end=" ")
     keys("alt+r")
     op.wait(0.3)
     running = op.stat.interp_state != linuxcnc.INTERP_IDLE
@@ -109,6 +119,11 @@ def replaced(op, app, tcl, user, keys, held):
     print("told:", [t.strip().splitlines()[-1] for t in op.trouble])
     op.trouble.clear()
     user["jog_on"], user["jog_off"] = kept, off
+    user["set_feedrate"] = lambda n, own=user["set_feedrate"]: own(min(n, 80))
+    app.command.feedrate(0.8)
+    op.wait(0.2)
+    keys("9")
+    print("replaced late: feed", app.vars.feedrate.get(), end=" ")
     user["jog_invert"] = "X"
     print("turned round:", held("Right"), end=" ")
     open("secret.ngc", "w").write("M2\n")
@@ -141,7 +156,7 @@ def places(op, app, tcl, user, keys, held):
     home(op)
     keys("r")
     print(str(tcl.call("wm", "geometry", "."))[:8], tcl.eval("wm minsize ."), "lines:",
-          tcl.call(".pane.bottom.t.text", "cget", "-height"),
+          tcl.call(".pane.bottom.t.text", "cget", "-height"), "sash:", tcl.eval(".pane sash coord 0").split()[1],
           "asked:", user["asked"], "idle:", op.stat.interp_state == linuxcnc.INTERP_IDLE)
 
 

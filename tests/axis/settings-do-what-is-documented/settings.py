@@ -7,6 +7,7 @@ import sys
 import linuxcnc
 import operator_lib as lib
 from axis import dialogs
+from axis.program import properties
 
 
 def words(value):
@@ -28,7 +29,8 @@ def foam(op):
     xy, uv = (item.vertices[:, 2] for item in p.scene.live)
     print("extents Z:", p.extents() and [round(corner[2], 4) for corner in p.extents()],
           "tips of the cutters:", round(float(xy.max()), 4), round(float(uv.min()), 4), "plot:", in_planes,
-          round(last[2], 4), round(last[9], 4))
+          round(last[2], 4), round(last[9], 4), "of the properties:",
+          [value for name, value in properties(op.app.loaded_file, None, p.program, op.app.settings, True) if "Z" in name])
 
 
 def common(op):

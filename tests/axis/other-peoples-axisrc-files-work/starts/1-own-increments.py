@@ -11,4 +11,6 @@ choose("0.1mm")
 vars.jog_speed.set(600)
 def faster():
     root_window.tk.call("set", "jog_slider_val", 0.5)
+def slower():
+    root_window.tk.call("set", "maxvel_slider_val", 0.5)
 root_window.bind("<Key-F6>", lambda e: choose(steps[3]))
