@@ -3,6 +3,8 @@
 // accept.cc - the table; see accept.hh. A test drives each command in each situation.
 #include "accept.hh"
 
+#include <cmath>
+#include <type_traits>
 #include <unordered_map>
 
 // clang-format off
@@ -112,5 +114,41 @@ Situation situation(const EMC_TASK_STAT &task) {
     case EMC_TASK_INTERP_PAUSED: return Situation::auto_paused;
     case EMC_TASK_INTERP_WAITING: return Situation::auto_waiting;
     default: return Situation::auto_idle;
+    }
+}
+
+namespace {
+struct NumberCheck { // shown the fields of a message
+    const char *bad = nullptr;
+    template <class T> void operator()(const nml::Field &field, const T &v) {
+        if (!bad && !good(v)) bad = field.name;
+    }
+    static bool good(double v) { return std::isfinite(v); }
+    static bool good(const PmCartesian &p) { return good(p.x) && good(p.y) && good(p.z); }
+    static bool good(const EmcPose &p) {
+        return good(p.tran) && good(p.a) && good(p.b) && good(p.c) && good(p.u) && good(p.v) && good(p.w);
+    }
+    template <class T> static std::enable_if_t<!std::is_floating_point_v<T>, bool> good(const T &) { return true; }
+};
+
+template <class M> const char *check([[maybe_unused]] const NMLmsg &m) {
+    NumberCheck numbers;
+    if constexpr (std::is_base_of_v<RCS_CMD_MSG, M>) M::fields(numbers, static_cast<const M &>(m));
+    return numbers.bad;
+}
+} // namespace
+
+const char *field_without_number(const NMLmsg &command) {
+    switch (command._type) {
+#define F(...)
+#define S(...)
+#define L(...)
+#define MSG(NAME, NUMBER, BASE, ...) case NUMBER: return check<NAME>(command);
+#include "messages.def"
+#undef MSG
+#undef F
+#undef S
+#undef L
+    default: return nullptr;
     }
 }

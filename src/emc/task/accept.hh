@@ -31,4 +31,7 @@ Answer accept(NMLTYPE type, Situation s); // what is not in the table is refused
 
 Situation situation(const EMC_TASK_STAT &task);
 
+// The first field of a command whose number is infinite or none at all; nullptr when all are numbers.
+const char *field_without_number(const NMLmsg &command);
+
 #endif

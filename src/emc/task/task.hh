@@ -65,6 +65,7 @@ private:
     // ---- plan ----
     int refuse(const NMLmsg &m, Situation s);
     int refuse_stranger(const NMLmsg &m);
+    int refuse_number(const NMLmsg &m, const char *field);
     int take_control(const char *name);
     int do_command(const NMLmsg &m); // immediate
     int set_mode(int mode);

@@ -50,7 +50,9 @@ void Task::plan() {
         Answer a = refused_stranger_ ? Answer::no : accept(m._type, s);
         if (a == Answer::manual) a = t.mode == EMC_TASK_MODE_MANUAL ? Answer::yes : Answer::ignore;
         int r = 0;
-        switch (a) {
+        const char *bad = a == Answer::yes || a == Answer::queue ? field_without_number(m) : nullptr;
+        if (bad) r = refuse_number(m, bad);
+        else switch (a) {
         case Answer::yes:
             r = do_command(m);
             took = m._type != EMC_TASK_PLAN_STEP_TYPE;
@@ -115,6 +117,12 @@ int Task::refuse_stranger(const NMLmsg &m) {
     operator_error((control_.name() + " has control of the machine: " + emc_symbol_lookup(m._type) +
                     " of another program was refused. Abort ends its control")
                        .c_str());
+    return -1;
+}
+
+int Task::refuse_number(const NMLmsg &m, const char *field) {
+    const std::string name = emc_symbol_lookup(m._type);
+    operator_error((name + " was refused: its " + field + " is no finite number").c_str());
     return -1;
 }
 

@@ -1,0 +1,2 @@
+#!/bin/bash
+exec ../lib/machine-test script.py
