@@ -26,7 +26,7 @@
 namespace {
 
 constexpr int64_t PERIOD_NS = 20'000'000;
-constexpr double RECEIVE_TIMEOUT_S = 10.0, DONE_TIMEOUT_S = 60.0, POLL_S = 0.005;
+constexpr double RECEIVE_TIMEOUT_S = 10.0, POLL_S = 0.005;
 constexpr double CONNECT_PATIENCE_S = 10.0;
 constexpr size_t MAX_MDI = 64;
 const char AXES[] = "xyzabcuvw";
@@ -36,13 +36,32 @@ void on_signal(int) { stop = 1; }
 
 // ---- pins that remember what they were ----
 
-struct Bit {
-    hal_bit_t **pin = nullptr; // in HAL memory
-    bool old = false;
-    bool now() const { return **pin; }
+// An input pin. What its signal says when it is linked (a button held at power-up, the count of a wheel) is how things
+// are, not something that happens.
+template <class T> struct Input {
+    using Value = T;
+    volatile T **pin = nullptr; // in HAL memory
+    volatile T *signal = nullptr;
+    T old = 0;
+    void made(volatile T **p) {
+        pin = p;
+        signal = *p;
+        old = **p;
+    }
+    T now() const { return **pin; }
+    // True when it was linked or unlinked since the last time; old is then what it is now.
+    bool relinked() {
+        if (*pin == signal) return false;
+        made(pin);
+        return true;
+    }
+};
+
+struct Bit : Input<bool> {
     // -1 fell, 1 rose, 0 neither
     int edge() {
-        bool v = **pin;
+        relinked();
+        const bool v = now();
         int e = v == old ? 0 : v ? 1 : -1;
         old = v;
         return e;
@@ -50,31 +69,27 @@ struct Bit {
     bool rose() { return edge() > 0; }
 };
 
-struct Real {
-    hal_float_t **pin = nullptr;
-    double old = 0;
-    double now() const { return **pin; }
+struct Real : Input<double> {
     bool changed() {
-        double v = **pin;
-        if (v == old) return false;
+        const double v = now();
+        if (v == old || (std::isnan(v) && std::isnan(old))) return false;
         old = v;
         return true;
+    }
+};
+
+struct Count : Input<rtapi_s32> {
+    int delta() {
+        relinked();
+        const auto before = static_cast<uint32_t>(old);
+        old = now();
+        return static_cast<int>(static_cast<uint32_t>(old) - before);
     }
 };
 
 struct RealOut {
     hal_float_t **pin = nullptr; // null: the axis is not configured
     void set(double v) const { **pin = v; }
-};
-
-struct Count {
-    hal_s32_t **pin = nullptr;
-    int old = 0;
-    int delta() {
-        int v = **pin, d = v - old;
-        old = v;
-        return d;
-    }
 };
 
 class Pins {
@@ -86,24 +101,12 @@ public:
         va_start(a, format);
         std::string name = text(format, a);
         va_end(a);
-        Bit b;
-        b.pin = memory<hal_bit_t *>();
-        if (b.pin) result_ |= hal_pin_bit_newf(HAL_IN, b.pin, comp_, "%s", name.c_str());
-        return b;
+        return in<Bit>(name, hal_pin_bit_newf, false);
     }
     Real in_real(const std::string &name, double value = 0) {
-        Real r;
-        r.pin = memory<hal_float_t *>();
-        if (r.pin && (result_ |= hal_pin_float_newf(HAL_IN, r.pin, comp_, "%s", name.c_str())) == 0) **r.pin = value;
-        r.old = value;
-        return r;
+        return in<Real>(name, hal_pin_float_newf, value);
     }
-    Count in_count(const std::string &name) {
-        Count c;
-        c.pin = memory<hal_s32_t *>();
-        if (c.pin) result_ |= hal_pin_s32_newf(HAL_IN, c.pin, comp_, "%s", name.c_str());
-        return c;
-    }
+    Count in_count(const std::string &name) { return in<Count>(name, hal_pin_s32_newf, 0); }
     hal_float_t **out_real(const std::string &name) {
         hal_float_t **p = memory<hal_float_t *>();
         if (p) result_ |= hal_pin_float_newf(HAL_OUT, p, comp_, "%s", name.c_str());
@@ -119,8 +122,17 @@ public:
         if (p) result_ |= hal_pin_bit_newf(HAL_OUT, p, comp_, "%s", name.c_str());
         return p;
     }
-    void preset(const Bit &b, bool value) { if (good()) **b.pin = value; }
+    void preset(Bit &b, bool value) { if (good()) **b.pin = b.old = value; }
 private:
+    template <class P, class F> P in(const std::string &name, F make, typename P::Value value) {
+        P p;
+        auto place = memory<volatile typename P::Value *>();
+        if (place && (result_ |= make(HAL_IN, place, comp_, "%s", name.c_str())) == 0) {
+            **place = value;
+            p.made(place);
+        }
+        return p;
+    }
     template <class T> T *memory() {
         T *p = static_cast<T *>(hal_malloc(sizeof(T)));
         if (!p) result_ = -1;
@@ -175,6 +187,9 @@ struct Jog {
     Bit plus, minus, increment_plus, increment_minus;
     Real analog, increment;
     bool has_analog = false;
+    double way = 0;        // of the continuous jog that these pins hold: its speed is way * jog-speed; 0 none
+    uint64_t began = 0;    // servo cycle of its last command
+    bool centred = false;  // analog was in the dead band since it last could not jog
     void create(Pins &p, const std::string &name, bool with_analog) {
         plus = p.in_bit("%s.plus", name.c_str());
         minus = p.in_bit("%s.minus", name.c_str());
@@ -184,7 +199,6 @@ struct Jog {
         increment_plus = p.in_bit("%s.increment-plus", name.c_str());
         increment_minus = p.in_bit("%s.increment-minus", name.c_str());
     }
-    bool held() const { return plus.now() || minus.now(); }
 };
 
 struct JointLamps {
@@ -220,7 +234,13 @@ public:
 private:
     void commands();
     void show();
+    bool jogs_possible() const {
+        return stat_.task.state == EMC_TASK_STATE_ON && stat_.task.mode == EMC_TASK_MODE_MANUAL;
+    }
     void jogs();
+    void hold(Jog &j, int n, double way, double speed, bool joints);
+    void let_go(Jog &j, int n, bool joints);
+    bool ended(const Jog &j) const;
     void jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints,
                    std::vector<Bit> &select, std::vector<hal_bit_t **> &lamps, const std::vector<int> &present);
     void mdi();
@@ -245,13 +265,11 @@ private:
         EMC_TRAJ_SET_TELEOP_ENABLE m;
         m.enable = on;
         give(m);
-        client_->wait_done(DONE_TIMEOUT_S, POLL_S);
     }
     void home(int joint) { EMC_JOINT_HOME m; m.joint = joint; give(m); }
     void unhome(int joint) { EMC_JOINT_UNHOME m; m.joint = joint; give(m); }
     void jog_stop(int nr, bool joint) { EMC_JOG_STOP m; m.joint_or_axis = nr; m.jjogmode = joint; give(m); }
     void jog_cont(int nr, double speed, bool joint) {
-        if (stat_.task.state != EMC_TASK_STATE_ON) return;
         EMC_JOG_CONT m;
         m.joint_or_axis = nr;
         m.vel = speed / 60;
@@ -259,7 +277,6 @@ private:
         give(m);
     }
     void jog_incr(int nr, double increment, double speed, bool joint) {
-        if (stat_.task.state != EMC_TASK_STATE_ON) return;
         EMC_JOG_INCR m;
         m.joint_or_axis = nr;
         m.incr = increment;
@@ -485,11 +502,13 @@ bool Halui::create() {
 
 // ---- inputs ----
 
+// Of two buttons at once the one that stops acts.
 void Halui::commands() {
-    if (on_.rose()) set_state(EMC_TASK_STATE_ON);
-    if (off_.rose()) set_state(EMC_TASK_STATE_OFF);
-    if (estop_activate_.rose()) set_state(EMC_TASK_STATE_ESTOP);
-    if (estop_reset_.rose()) set_state(EMC_TASK_STATE_ESTOP_RESET);
+    const bool on = on_.rose(), off = off_.rose(), activate = estop_activate_.rose(), reset = estop_reset_.rose();
+    if (off) set_state(EMC_TASK_STATE_OFF);
+    else if (on) set_state(EMC_TASK_STATE_ON);
+    if (activate) set_state(EMC_TASK_STATE_ESTOP);
+    else if (reset) set_state(EMC_TASK_STATE_ESTOP_RESET);
     if (manual_.rose()) set_mode(EMC_TASK_MODE_MANUAL);
     if (auto_.rose()) set_mode(EMC_TASK_MODE_AUTO);
     if (mdi_mode_.rose()) set_mode(EMC_TASK_MODE_MDI);
@@ -499,15 +518,19 @@ void Halui::commands() {
     if (mist_off_.rose()) plain<EMC_COOLANT_MIST_OFF>();
     if (flood_on_.rose()) plain<EMC_COOLANT_FLOOD_ON>();
     if (flood_off_.rose()) plain<EMC_COOLANT_FLOOD_OFF>();
-    if (run_.rose() && stat_.task.file[0]) {
-        set_mode(EMC_TASK_MODE_AUTO);
-        plain<EMC_TASK_PLAN_RUN>();
+    const bool run = run_.rose(), pause = pause_.rose(), resume = resume_.rose(), step = step_.rose(),
+               program_stop = program_stop_.rose(), abort = abort_.rose();
+    if (program_stop || abort) {
+        plain<EMC_TASK_ABORT>();
+    } else {
+        if (run && stat_.task.file[0]) {
+            set_mode(EMC_TASK_MODE_AUTO);
+            plain<EMC_TASK_PLAN_RUN>();
+        }
+        if (pause) plain<EMC_TASK_PLAN_PAUSE>();
+        else if (resume) plain<EMC_TASK_PLAN_RESUME>();
+        else if (step) plain<EMC_TASK_PLAN_STEP>();
     }
-    if (pause_.rose()) plain<EMC_TASK_PLAN_PAUSE>();
-    if (resume_.rose()) plain<EMC_TASK_PLAN_RESUME>();
-    if (step_.rose()) plain<EMC_TASK_PLAN_STEP>();
-    if (program_stop_.rose()) plain<EMC_TASK_ABORT>();
-    if (abort_.rose()) plain<EMC_TASK_ABORT>();
     auto optional = [&](bool on) { EMC_TASK_PLAN_SET_OPTIONAL_STOP m; m.state = on; give(m); };
     if (optional_on_.rose()) optional(true);
     if (optional_off_.rose()) optional(false);
@@ -536,10 +559,9 @@ void Halui::commands() {
             m.scale = v;
             give(m);
         }
-        if (s.start.rose()) spindle_start(n, 1);
-        if (s.forward.rose()) spindle_start(n, 1);
-        if (s.reverse.rose()) spindle_start(n, -1);
+        const bool start = s.start.rose(), forward = s.forward.rose(), reverse = s.reverse.rose();
         if (s.stop.rose()) { EMC_SPINDLE_OFF m; m.spindle = n; give(m); }
+        else if ((start || forward) != reverse) spindle_start(n, reverse ? -1 : 1);
         auto constant = [&] { EMC_SPINDLE_CONSTANT m; m.spindle = n; give(m); };
         if (int e = s.increase.edge()) {
             if (e > 0) {
@@ -555,8 +577,9 @@ void Halui::commands() {
                 give(m);
             } else constant();
         }
+        const bool release_brake = s.brake_off.rose();
         if (s.brake_on.rose()) { EMC_SPINDLE_BRAKE_ENGAGE m; m.spindle = n; give(m); }
-        if (s.brake_off.rose()) { EMC_SPINDLE_BRAKE_RELEASE m; m.spindle = n; give(m); }
+        else if (release_brake) { EMC_SPINDLE_BRAKE_RELEASE m; m.spindle = n; give(m); }
     }
     if (home_all_exists_ && home_all_.rose()) home(-1);
     for (int n = 0; n < joints_; n++) {
@@ -567,20 +590,49 @@ void Halui::commands() {
     if (selected_unhome_.rose()) unhome(static_cast<int>(**joint_selected_));
 }
 
+void Halui::hold(Jog &j, int n, double way, double speed, bool joints) {
+    if (!std::isfinite(way * speed)) jog_stop(n, joints); // task refuses the new speed and says why
+    jog_cont(n, speed * way, joints);
+    refresh();
+    j.way = way;
+    j.began = stat_.motion.heartbeat;
+}
+
+void Halui::let_go(Jog &j, int n, bool joints) {
+    j.way = 0;
+    jog_stop(n, joints);
+}
+
+// Whether the jog of these pins is over though they may be held: by an abort, a limit, another program.
+bool Halui::ended(const Jog &j) const {
+    constexpr uint64_t CYCLES = 10; // until the status shows a new jog
+    return !stat_.motion.jogging_active && stat_.motion.heartbeat > j.began + CYCLES;
+}
+
+// A jog begins with a press of its button, or with a joystick that leaves the dead band. Whatever ends it (an abort,
+// the machine off, another mode), a button that is still held and a change of jog-speed do not begin it again.
 void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband,
                       bool joints, std::vector<Bit> &select, std::vector<hal_bit_t **> &lamps,
                       const std::vector<int> &present) {
     int current = static_cast<int>(**number);
     bool active =
         joints ? stat_.motion.traj.mode != EMC_TRAJ_MODE_TELEOP : stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP;
+    active = active && jogs_possible();
+    auto forget_if_over = [&](Jog &j) {
+        if (j.way == 0 || (active && !ended(j))) return;
+        j.way = 0;
+        j.centred = false;
+    };
+    for (int n : present) forget_if_over(all[static_cast<size_t>(n)]);
+    forget_if_over(selected);
     for (int n : present) {
         if (!select[static_cast<size_t>(n)].rose()) continue;
         **number = static_cast<rtapi_u32>(n);
         for (int k : present) **lamps[static_cast<size_t>(k)] = k == n;
-        if (active && selected.held()) { // the button stays down: the jog goes over to the new one
+        if (selected.way != 0) { // the button stays down: the jog goes over to the new one
             for (int k : present)
-                if (k != n && !all[static_cast<size_t>(k)].held()) jog_stop(k, joints);
-            if (n != current) jog_cont(n, selected.plus.now() ? speed.now() : -speed.now(), joints);
+                if (k != n && all[static_cast<size_t>(k)].way == 0) jog_stop(k, joints);
+            if (n != current) hold(selected, n, selected.way, speed.now(), joints);
         }
         current = n;
     }
@@ -588,18 +640,24 @@ void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, 
     auto one = [&](Jog &j, int n) {
         int plus = j.plus.edge(), minus = j.minus.edge(), inc_plus = j.increment_plus.edge(),
             inc_minus = j.increment_minus.edge();
-        bool turned = j.has_analog && j.analog.changed();
-        if (!active) return;
-        if (plus > 0 || (faster && j.plus.old)) jog_cont(n, speed.now(), joints);
-        if (minus > 0 || (faster && j.minus.old)) jog_cont(n, -speed.now(), joints);
-        if (plus < 0 || minus < 0) jog_stop(n, joints);
+        bool turned = false, moves = false;
         if (j.has_analog) {
-            bool moves = std::fabs(j.analog.now()) > deadband.now();
-            if ((turned || faster) && moves) jog_cont(n, speed.now() * j.analog.now(), joints);
-            else if (turned) jog_stop(n, joints);
+            if (j.analog.relinked()) j.centred = false;
+            const double before = j.analog.old;
+            turned = j.analog.changed();
+            moves = std::fabs(j.analog.now()) > deadband.now();
+            if (!active) j.centred = false;
+            if (!moves || before * j.analog.now() < 0) j.centred = true;
         }
-        if (inc_plus > 0) jog_incr(n, j.increment.now(), speed.now(), joints);
-        if (inc_minus > 0) jog_incr(n, -j.increment.now(), speed.now(), joints);
+        if (!active) return;
+        if (plus > 0 && minus <= 0) hold(j, n, 1, speed.now(), joints);
+        else if (minus > 0 && plus <= 0) hold(j, n, -1, speed.now(), joints);
+        else if (plus != 0 || minus != 0) let_go(j, n, joints);
+        else if (turned && moves && j.centred) hold(j, n, j.analog.now(), speed.now(), joints);
+        else if (turned && !moves) let_go(j, n, joints);
+        else if (faster && j.way != 0) hold(j, n, j.way, speed.now(), joints);
+        if (inc_plus > 0 && inc_minus <= 0) jog_incr(n, j.increment.now(), speed.now(), joints);
+        if (inc_minus > 0 && inc_plus <= 0) jog_incr(n, -j.increment.now(), speed.now(), joints);
     };
     for (int n : present) one(all[static_cast<size_t>(n)], n);
     one(selected, current);
@@ -621,19 +679,27 @@ void Halui::mdi() {
         stat_.control_pid == 0 || stat_.control_pid == getpid(); // else task refuses it, and tells the operator
     for (size_t n = 0; n < mdi_.size(); n++) {
         if (!mdi_[n].rose()) continue;
+        EMC_TASK_PLAN_EXECUTE m;
+        if (mdi_commands_[n].size() >= sizeof m.command) {
+            EMC_OPERATOR_ERROR text;
+            copy_text(text.error, ("[HALUI]MDI_COMMAND " + std::to_string(n) +
+                                   " is not executed: it is longer than 254 characters").c_str());
+            give(text);
+            return;
+        }
         if (may && !**mdi_running_) {
             remembered_mode_ = stat_.task.mode;
             **mdi_running_ = 1;
         }
         if (may) set_mode(EMC_TASK_MODE_MDI);
-        EMC_TASK_PLAN_EXECUTE m;
         copy_text(m.command, mdi_commands_[n].c_str());
         give(m);
         refresh();
         return; // one a loop: the status of this one must be seen before it may look done
     }
     if (may && mdi_running_ && **mdi_running_ && stat_.status == RCS_DONE) {
-        if (remembered_mode_ != EMC_TASK_MODE_MDI) set_mode(remembered_mode_);
+        // who has chosen another mode meanwhile keeps it
+        if (stat_.task.mode == EMC_TASK_MODE_MDI) set_mode(remembered_mode_);
         **mdi_running_ = 0;
     }
 }
@@ -719,17 +785,14 @@ void Halui::run() {
 
 // Nobody is left to let go of the buttons: what they keep moving stops.
 void Halui::release() {
-    auto all = [&](std::vector<Jog> &jogs, const Jog &selected, hal_u32_t **number, const Real &deadband, bool joints) {
+    auto all = [&](std::vector<Jog> &jogs, const Jog &selected, hal_u32_t **number, bool joints) {
         for (size_t n = 0; n < jogs.size(); n++)
-            if (jogs[n].held() || std::fabs(jogs[n].analog.now()) > deadband.now() ||
-                (selected.held() && **number == n))
-                jog_stop(static_cast<int>(n), joints);
+            if (jogs[n].way != 0 || (selected.way != 0 && **number == n)) jog_stop(static_cast<int>(n), joints);
     };
     refresh();
-    if (stat_.task.mode != EMC_TASK_MODE_MANUAL || stat_.task.state != EMC_TASK_STATE_ON) return;
-    if (stat_.motion.traj.mode == EMC_TRAJ_MODE_TELEOP)
-        all(axis_jog_, axis_selected_jog_, axis_selected_, axis_deadband_, false);
-    else all(joint_jog_, joint_selected_jog_, joint_selected_, joint_deadband_, true);
+    if (!jogs_possible()) return;
+    all(axis_jog_, axis_selected_jog_, axis_selected_, false);
+    all(joint_jog_, joint_selected_jog_, joint_selected_, true);
 }
 
 } // namespace
