@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -26,6 +27,8 @@ namespace nml {
 constexpr size_t MOST_CLIENTS = 200, MOST_UNREAD = 1000000; // connections; bytes of answers that wait
 constexpr size_t MOST_NEWS = 100000; // bytes that wait: a subscriber that is slower misses news
 constexpr int WAKE_MS = 200, PENDING_MS = 5;
+constexpr int MOST_AT_A_TURN = 4; // requests of one client before the next one has its turn
+constexpr int64_t ROOM_RETRY_NS = 1'000'000, MOST_HELD_NS = 1'000'000'000;
 
 static int64_t wall_ns() {
     timespec t;
@@ -275,9 +278,25 @@ bool Server::answer(Client &c, const unsigned char *head, const unsigned char *d
     }
 }
 
-// Takes whole requests from the input. False: garbage.
+// Half of a queue is kept for programs of this computer, so that a flood from outside keeps no stop out. Where
+// nobody reads the queue its writer hears so after a second.
+bool Server::waits_for_room(Client &c, int number) {
+    auto it = buffers_.find({c.port, number});
+    if (it == buffers_.end() || !it->second.line.queue) return false;
+    Transport *t = it->second.channel->transport();
+    long room = 0;
+    const bool full = t->space_available(&room) == CMS_READ_OK && room < t->max_message() / 2;
+    const int64_t now = wall_ns();
+    if (full && c.held_since == 0) c.held_since = now;
+    if (full && now < c.held_since + MOST_HELD_NS) return true;
+    c.held_since = 0;
+    return false;
+}
+
+// Takes whole requests from the input, or leaves them for `later`. False: garbage.
 bool Server::consume(Client &c) {
-    for (;;) {
+    c.later = 0;
+    for (int n = 0;; n++) {
         if (c.in.size() < REQUEST_BYTES || c.pending.any) return true;
         uint32_t type = get_word(c.in.data() + 4), w4 = get_word(c.in.data() + 16);
         size_t extra = 0;
@@ -295,6 +314,12 @@ bool Server::consume(Client &c) {
             return false;
         }
         if (c.in.size() < REQUEST_BYTES + extra) return true;
+        const int64_t now = wall_ns();
+        if (n == MOST_AT_A_TURN) c.later = now;
+        else if (type == REQ_WRITE && waits_for_room(c, static_cast<int>(get_word(c.in.data() + 8))))
+            c.later = now + ROOM_RETRY_NS;
+        else if (!c.rate.take(now)) c.later = c.rate.next_ns();
+        if (c.later) return true;
         if (!answer(c, c.in.data(), c.in.data() + REQUEST_BYTES, extra)) {
             if (type != REQ_CLOSE_CHANNEL)
                 rcs_print_error("NML server: %s sent a request that can not be read (type %u); dropped\n",
@@ -336,9 +361,12 @@ void Server::run(const volatile int *stop) {
         int wake = WAKE_MS;
         std::vector<pollfd> fds;
         for (auto &l : listeners_) fds.push_back({l.first, POLLIN, 0});
+        const int64_t now = wall_ns();
         for (Client &c : clients_) {
-            fds.push_back({c.fd, static_cast<short>(POLLIN | (c.out.empty() ? 0 : POLLOUT)), 0});
-            if (c.pending.any || !c.subscriptions.empty()) wake = PENDING_MS;
+            short events = static_cast<short>((c.later ? 0 : POLLIN) | (c.out.empty() ? 0 : POLLOUT));
+            fds.push_back({events ? c.fd : -1, events, 0});
+            if (c.pending.any || !c.subscriptions.empty()) wake = std::min(wake, PENDING_MS);
+            if (c.later) wake = std::clamp(static_cast<int>((c.later - now + 999'999) / 1'000'000), 0, wake);
         }
         if (::poll(fds.data(), fds.size(), wake) < 0) continue;
         size_t n = listeners_.size();
@@ -347,7 +375,9 @@ void Server::run(const volatile int *stop) {
             Client &c = clients_[i];
             short ev = fds[n + i].revents;
             bool good = !(ev & (POLLERR | POLLNVAL));
-            if (good && (ev & (POLLIN | POLLHUP))) {
+            if (good && c.later) {
+                if (wall_ns() >= c.later) good = consume(c);
+            } else if (good && (ev & (POLLIN | POLLHUP))) {
                 unsigned char buf[8192];
                 ssize_t r = recv(c.fd, buf, sizeof buf, 0);
                 if (r > 0) {
@@ -379,6 +409,10 @@ void Server::run(const volatile int *stop) {
             if (gone) gone(c.id);
         }
         clients_.swap(kept);
+        // Whose message waits for room is the first to find some.
+        auto held = [](const Client &c) { return c.held_since != 0; };
+        auto first = std::find_if(clients_.begin(), clients_.end(), held);
+        std::rotate(clients_.begin(), first, clients_.end());
         for (size_t i = 0; i < n; i++) {
             if (fds[i].revents & POLLIN) accept_from(listeners_[i].first, listeners_[i].second);
         }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // nml_server.hh - serves local buffers to clients over TCP. One thread, one poll loop; a
-// client that sends what is no request is dropped with a log line and disturbs nobody.
+// client that sends what is no request is dropped with a log line and disturbs nobody. One that sends
+// too many waits (RateLimit), each has its turn, and together they never fill more than half of a queue.
 //
 // Buffers with passwd=FILE want a login first: GET_KEYS gives 16 random bytes, LOGIN brings a name
 // and the first 16 bytes of HMAC-SHA256(password, random bytes + name); see nml_auth.hh.
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "nml_transport.hh"
+#include "rate_limit.hh"
 
 namespace nml {
 
@@ -54,6 +56,9 @@ private:
         std::vector<unsigned char> in, out;
         Pending pending;
         std::map<int, Subscription> subscriptions; // by number of the buffer
+        RateLimit rate;
+        int64_t later = 0;      // requests of it wait here until then (ns of wall time); 0: none
+        int64_t held_since = 0; // its next message waits for room in the queue; 0: none does
     };
     void accept_from(int listener, int port);
     bool login(Client &c, const unsigned char *data, Buffer &b);
@@ -62,6 +67,7 @@ private:
     void send_news(Client &c);
     void reply_diagnosis(Client &c, uint32_t serial, Buffer &b);
     bool consume(Client &c);
+    bool waits_for_room(Client &c, int number);
     bool answer(Client &c, const unsigned char *head, const unsigned char *data, size_t size);
     bool reply_read(Client &c, uint32_t serial, Buffer &b, uint32_t access, int last_id, bool only_new);
     std::map<std::pair<int, int>, Buffer> buffers_; // (port, number)

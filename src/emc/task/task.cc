@@ -323,6 +323,8 @@ void Task::read_command() {
         jog_owners_.held({m.joint_or_axis, m.jjogmode ? 1 : 0}, kerf_clock_now_ns());
     }
     if (type <= 0 || type == EMC_JOG_HELD_TYPE) return;
+    enum { FLOOD = 8 }; // so many wait behind it: they are taken without a rest, for a stop may be the last of them
+    eager_ |= command_channel_->get_queue_length() > FLOOD;
     command_ = AnyMessage(*command_channel_->get_address());
     command_serial_ = static_cast<const RCS_CMD_MSG &>(*command_).serial_number;
     command_writer_ = command_channel_->last_writer();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kerf_clock.h"
+#include "nml_transport.hh"
 
 EmcClient::EmcClient(const std::string &nmlfile) {
     const char *file = nmlfile.empty() ? nullptr : nmlfile.c_str();
@@ -13,9 +14,15 @@ EmcClient::EmcClient(const std::string &nmlfile) {
     status_ = std::make_unique<NML>(emc_messages(), "emcStatus", "xemc", file);
 }
 
+constexpr int64_t ROOM_RETRY_NS = 1'000'000;
+constexpr int MOST_TRIES = 1000;
+
+// A flood of others may have filled the queue; the server does this for programs on other computers.
 bool EmcClient::send(RCS_CMD_MSG &m) {
-    if (command_->write(m, &serial_) != 0) return false;
-    return true;
+    if (!remote() && command_->valid())
+        for (int n = 0; n < MOST_TRIES && command_->get_space_available() < m.size + 2 * nml::MESSAGE_HEADER_BYTES; n++)
+            kerf_clock_sleep_ns(ROOM_RETRY_NS);
+    return command_->write(m, &serial_) == 0;
 }
 
 bool EmcClient::send_aside(RCS_CMD_MSG &m) {

@@ -261,12 +261,13 @@ public:
 
     // Sends and waits until task has read it.
     void give(RCS_CMD_MSG &m) {
-        if (!client.send(m)) {
-            NML &c = client.command_channel();
-            raise_error("emcCommandBuffer invalid err=" + std::to_string(c.error_type));
+        bool sent;
+        {
+            py::gil_scoped_release go;
+            sent = client.send(m);
+            if (sent) client.wait_received(RECEIVE_TIMEOUT_S);
         }
-        py::gil_scoped_release go;
-        client.wait_received(RECEIVE_TIMEOUT_S);
+        if (!sent) raise_error("emcCommandBuffer invalid err=" + std::to_string(client.command_channel().error_type));
     }
     template <class T> void plain() { T m; give(m); }
 };

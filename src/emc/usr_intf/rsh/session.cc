@@ -417,7 +417,7 @@ void Server::run(const volatile int *stop) {
                 {events ? s.first : -1, events, 0}); // one that has ended its input and gets nothing has no news
             ids.push_back(s.first);
             if (s.second->waiting()) timeout = std::min(timeout, std::max<int64_t>(0, s.second->next_poll_ns() - now));
-            else if (s.second->has_line()) timeout = 0;
+            else if (s.second->has_line()) timeout = std::clamp<int64_t>(s.second->rate.next_ns() - now, 0, timeout);
         }
         kerf_clock_poll(fds.data(), fds.size(), timeout);
         for (size_t i = 0; i < ids.size(); i++) {
@@ -450,7 +450,8 @@ void Server::run(const volatile int *stop) {
         for (auto &it : sessions) {
             Session &s = *it.second;
             if (s.waiting()) s.poll_waiting();
-            if (!s.waiting() && !s.closing && !shutdown && s.has_line()) s.next_line();
+            if (!s.waiting() && !s.closing && !shutdown && s.has_line() && s.rate.take(kerf_clock_now_ns()))
+                s.next_line();
             if (s.input_ended && !s.waiting() && !s.has_line()) s.closing = true;
             if (s.output.size() > MAX_OUTPUT) {
                 info(s.client + " does not read its answers; dropped");

@@ -12,6 +12,7 @@
 
 #include "client.hh"
 #include "inifile.hh"
+#include "rate_limit.hh"
 
 namespace rsh {
 
@@ -45,6 +46,7 @@ public:
     bool timestamp = false, timestamp_epoch = false;
     double timeout_s = 0; // 0: none
     std::string client, version = "1.1", opened;
+    nml::RateLimit rate; // of its lines
     bool closing = false, input_ended = false;
 
     void input(const char *data, size_t n);
