@@ -7,7 +7,9 @@ Defaults and checks: GUI reference, sections 1.3 and 1.5. Speeds are machine uni
 import re
 from dataclasses import dataclass, field
 
-LETTERS = "XYZABCUVW"
+from kerf import inivalues
+from kerf.inivalues import LETTERS
+
 MM_PER_INCH = 25.4
 
 
@@ -92,14 +94,7 @@ class Settings:
         return all(self.home_sequence(j) != "" for j in range(self.joints))
 
     def trivkins_letters(self):
-        """Letters of trivkins by joint, upper case (one each), or "" for other kinematics."""
-        words = self.kinematics.split()
-        if not words or words[0] != "trivkins":
-            return ""
-        for word in words[1:]:
-            if word.lower().startswith("coordinates="):
-                return word.split("=", 1)[1].upper()
-        return LETTERS
+        return inivalues.trivkins_letters(self.kinematics)
 
     def joint_of(self, letter):
         """Joint of a letter with identity kinematics: its first place in COORDINATES."""

@@ -4,12 +4,21 @@
 import re
 import subprocess
 
+LETTERS = "XYZABCUVW"
 _ESCAPES = {"a": "\a", "b": "\b", "f": "\f", "n": "\n", "r": "\r", "t": "\t", "v": "\v", "\\": "\\"}
 
 
 def _unescape(text):
     return re.sub(r"\\(x[0-9a-fA-F]{2}|.)",
                   lambda m: chr(int(m[1][1:], 16)) if len(m[1]) == 3 else _ESCAPES.get(m[1], m[0]), text)
+
+
+def trivkins_letters(kinematics):
+    """Letters by joint of [KINS]KINEMATICS = trivkins..., upper case (one each); "" for other kinematics."""
+    words = kinematics.split()
+    if not words or words[0] != "trivkins":
+        return ""
+    return next((w.partition("=")[2].upper() for w in words[1:] if w.lower().startswith("coordinates=")), LETTERS)
 
 
 class IniError(Exception):

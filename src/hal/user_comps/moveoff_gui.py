@@ -14,6 +14,7 @@ if (here.parent / "lib/python/kerf").is_dir():
 import hal
 from hal import query
 from kerf import tkstyle
+from kerf.inivalues import trivkins_letters
 from kerf.language import _, N_
 from kerf.numbertext import plain, with_point
 
@@ -71,10 +72,9 @@ def joint_numbers(axes, kinematics):
     """Joint of each letter. kinematics: [KINS]KINEMATICS, or None where no INI file is known. Raises Unusable."""
     if kinematics is None:
         return {axis: number for number, axis in enumerate(axes)}
-    words = kinematics.split()
-    if not words or words[0] != "trivkins":
+    coordinates = trivkins_letters(kinematics).lower()
+    if not coordinates:
         raise Unusable(f"[KINS]KINEMATICS = {kinematics}: offsets of axes need trivkins")
-    coordinates = next((w.partition("=")[2].lower() for w in words if w.startswith("coordinates=")), LETTERS)
     if missing := [axis for axis in axes if axis not in coordinates]:
         raise Unusable(f"-axes {axes}: {missing[0]} is not among the coordinates {coordinates} of trivkins")
     return {axis: coordinates.index(axis) for axis in axes}

@@ -8,8 +8,8 @@ from pathlib import Path
 import linuxcnc
 
 from .. import clock
+from ..inivalues import LETTERS, trivkins_letters
 
-LETTERS = "XYZABCUVW"
 INCH_MM = 25.4
 PER_MM = {"mm": 1.0, "inches": 1 / INCH_MM, "cm": 0.1}
 PROGRAM_UNITS = {1: "inches", 2: "mm", 3: "cm"}
@@ -40,6 +40,10 @@ class Machine:
         self.stat.poll()
         clock.wait_until(self._described, START_S)
         self.letters = [c for n, c in enumerate(LETTERS) if self.stat.axis_mask & (1 << n)]
+        # letters by joint
+        self.coordinates = list(trivkins_letters(self.ini.find("KINS", "KINEMATICS") or "trivkins")
+                                or (self.ini.find("TRAJ", "COORDINATES") or "").upper().replace(" ", ""))
+        del self.coordinates[self.stat.joints:]
         cycle = float(self.ini.find("DISPLAY", "CYCLE_TIME") or 0.2)
         self.cycle_ms = int(min(max(cycle * 1000 if cycle < 10 else cycle, 20), 1000))
         self.max_linear = 60 * self._real("MAX_LINEAR_VELOCITY", self.stat.max_velocity or 1)
@@ -73,8 +77,23 @@ class Machine:
     def names(self, joints=False):
         return [str(j) for j in range(self.stat.joints)] if joints else list(self.letters)
 
-    def index_of(self, letter):
-        return self.letters.index(letter)
+    @property
+    def all_homed(self):
+        return all(self.stat.homed[:self.stat.joints])
+
+    def joints_only(self):
+        """Before all are homed, letters stand for joints only where each has one of its own."""
+        one_each = (self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY
+                    and len(set(self.coordinates)) == len(self.coordinates))
+        return not one_each and not self.all_homed
+
+    def row_of(self, letter, joints=False):
+        """Row of an axis, or the first of its joints; None: there is none."""
+        letters = self.coordinates if joints else self.letters
+        return letters.index(letter) if letter in letters else None
+
+    def is_angular(self, row, joints):
+        return self.stat.joint[row]["jointType"] != linuxcnc.LINEAR if joints else self.letters[row] in "ABC"
 
     def unit_name(self, choice):
         return PROGRAM_UNITS.get(self.stat.program_units, "mm") if choice == "auto" else choice
@@ -88,7 +107,7 @@ class Machine:
         s = self.stat
         if joints:
             value = (s.joint_actual_position if actual else s.joint_position)[row]
-            return value if s.joint[row]["jointType"] != linuxcnc.LINEAR else value * self.factor(unit)
+            return value if self.is_angular(row, True) else value * self.factor(unit)
         values = list(s.actual_position if actual else s.position)
         if relative:
             values = [v - g5x - tool for v, g5x, tool in zip(values, s.g5x_offset, s.tool_offset)]
@@ -96,16 +115,15 @@ class Machine:
             x, y = values[0], values[1]
             values[0], values[1] = x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
             values = [v - g92 for v, g92 in zip(values, s.g92_offset)]
-        letter = self.letters[row]
-        return values[LETTERS.index(letter)] * (1.0 if letter in "ABC" else self.factor(unit))
+        value = values[LETTERS.index(self.letters[row])]
+        return value if self.is_angular(row, False) else value * self.factor(unit)
 
     def factor(self, unit):
         """Shown units per machine unit."""
         return PER_MM[self.unit_name(unit)] / (self.stat.linear_units or 1.0)
 
     def row_homed(self, row, joints):
-        s = self.stat
-        return bool(s.homed[row]) if joints else all(s.homed[:s.joints])
+        return bool(self.stat.homed[row]) if joints else self.all_homed
 
     # -- commands -----------------------------------------------------------------------
 
@@ -142,27 +160,36 @@ class Machine:
     def teleop(self, on):
         """World or joint jogging; world only when all joints are homed."""
         self.stat.poll()
-        if self.stat.task_mode == linuxcnc.MODE_MANUAL and (not on or all(self.stat.homed[:self.stat.joints])):
+        if self.stat.task_mode == linuxcnc.MODE_MANUAL and (not on or self.all_homed):
             self.command.teleop_enable(int(on))
             self.command.wait_complete(WAIT_S)
+            self.stat.poll()
 
-    def home(self, row):
+    def home(self, row, joints=False):
+        """One at a time; with it go those that are synchronized with it (negative HOME_SEQUENCE)."""
         self.stat.poll()
         if self.stat.task_mode != linuxcnc.MODE_MANUAL:
             return
-        joints = self.joints_of(row)
         self.command.teleop_enable(0)
         self.command.wait_complete(WAIT_S)
-        for joint in joints[:1]:
-            self.command.home(joint)
+        self.command.home(self.joint_of(row, joints))
 
-    def joints_of(self, row):
-        """Joints behind a row: by [TRAJ]COORDINATES for identity kinematics, else the number itself."""
-        coordinates = [c for c in (self.ini.find("TRAJ", "COORDINATES") or "").upper() if c in LETTERS]
-        if (self.stat.kinematics_type == linuxcnc.KINEMATICS_IDENTITY and row < len(self.letters)
-                and self.letters[row] in coordinates):
-            return [j for j, c in enumerate(coordinates) if c == self.letters[row] and j < self.stat.joints] or [row]
-        return [row]
+    def joint_of(self, row, joints=False):
+        """The joint behind a row: itself, or the first of the axis."""
+        letter = None if joints else self.letters[row]
+        return self.coordinates.index(letter) if letter in self.coordinates else row
+
+    def override_limits(self):
+        """Joints may be jogged off their switches; once more: no longer (leaving the manual mode ends it)."""
+        self.stat.poll()
+        if self.limits_overridden():
+            self.mode(linuxcnc.MODE_AUTO)
+            self.mode(linuxcnc.MODE_MANUAL)
+        elif self.mode(linuxcnc.MODE_MANUAL):
+            self.command.override_limits()
+
+    def limits_overridden(self):
+        return any(joint["override_limits"] for joint in self.stat.joint[:self.stat.joints])
 
     def pause(self):
         self.command.auto(linuxcnc.AUTO_PAUSE)
@@ -179,9 +206,6 @@ class Machine:
         if self.stat.file and self.stat.interp_state == linuxcnc.INTERP_IDLE and self.mode(linuxcnc.MODE_AUTO):
             self.command.auto(linuxcnc.AUTO_RUN, -1)
 
-    def speed(self, row, linear, angular):
-        return angular if row < len(self.letters) and self.letters[row] in "ABC" else linear
-
 
 class Jog:
     """One jog at a time; `key` started it."""
@@ -189,24 +213,24 @@ class Jog:
     def __init__(self, machine):
         self.m, self.running, self.key = machine, None, None
 
-    def start(self, row, direction, speed, increment=None, key=None):
-        """Joint jogs until all is homed, then axis jogs. speed: units per minute."""
+    def start(self, row, direction, speeds, increment=None, key=None, joints=False):
+        """A joint where joints are rows or not all are homed, else an axis. speeds: linear and angular, units per
+        minute."""
         m = self.m
         m.stat.poll()
         if m.stat.task_state != linuxcnc.STATE_ON or m.stat.task_mode != linuxcnc.MODE_MANUAL:
             return
         self.stop()
-        teleop = m.stat.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
-        if not teleop and all(m.stat.homed[:m.stat.joints]) and m.stat.motion_mode == linuxcnc.TRAJ_MODE_COORD:
-            m.teleop(True)
-            m.stat.poll()
+        teleop = not joints and m.all_homed
+        if m.stat.motion_mode != (linuxcnc.TRAJ_MODE_TELEOP if teleop else linuxcnc.TRAJ_MODE_FREE):
+            m.teleop(teleop)
             teleop = m.stat.motion_mode == linuxcnc.TRAJ_MODE_TELEOP
-        number = LETTERS.index(m.letters[row]) if teleop and row < len(m.letters) else m.joints_of(row)[0]
-        velocity = direction * speed / 60
+        number = LETTERS.index(m.letters[row]) if teleop else m.joint_of(row, joints)
+        angular = m.is_angular(row, joints)
+        velocity = direction * speeds[angular] / 60
         if increment:
             length, mm = increment_mm(increment)
-            distance = length * (mm * m.stat.linear_units
-                                 if mm and not (row < len(m.letters) and m.letters[row] in "ABC") else 1.0)
+            distance = length * (mm * m.stat.linear_units if mm and not angular else 1.0)
             m.command.jog(linuxcnc.JOG_INCREMENT, not teleop, number, velocity, distance)
             return
         m.command.jog(linuxcnc.JOG_CONTINUOUS, not teleop, number, velocity)

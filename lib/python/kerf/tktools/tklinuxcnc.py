@@ -62,6 +62,8 @@ class Window:
         self.actual = tk.IntVar(self.root, (find("DISPLAY", "POSITION_FEEDBACK") or "ACTUAL").upper() == "ACTUAL")
         self.world = tk.IntVar(self.root, 1)
         self.units = tk.StringVar(self.root, "auto")
+        self.joints = None      # rows are joints
+        self.was_homed = False
         self.selected = tk.IntVar(self.root, 0)
         self.incremental = tk.StringVar(self.root, CONTINUOUS)
         self.linear, self.angular = (tk.DoubleVar(self.root, self.m.linear_speed),
@@ -167,8 +169,8 @@ class Window:
             except tk.TclError as error:
                 print(f"tklinuxcnc: [DISPLAY]POSITION_FONT: {error}", file=sys.stderr)
         self.values, self.names = [], []
-        for row, name in enumerate(self.m.names()):
-            button = ttk.Radiobutton(box, value=row, variable=self.selected, takefocus=False, text=name)
+        for row in range(max(len(self.m.letters), self.m.stat.joints)):
+            button = ttk.Radiobutton(box, value=row, variable=self.selected, takefocus=False)
             button.grid(row=row, column=0, sticky="w")
             value = ttk.Label(box, width=12, anchor="e", font=self.font)
             value.grid(row=row, column=1, sticky="e", padx=px(6))
@@ -200,7 +202,7 @@ class Window:
         self.home_button = ttk.Button(jog, text=_("Home"), command=self.home, takefocus=False)
         self.home_button.pack(side="left", padx=px(2))
         ttk.Checkbutton(jog, text=_("override limits"), variable=self.override, takefocus=False,
-                        command=lambda: m.command.override_limits()).pack(side="left", padx=px(4))
+                        command=m.override_limits).pack(side="left", padx=px(4))
         self.increments = ttk.Combobox(box, textvariable=self.incremental, values=[CONTINUOUS] + m.increments,
                                        state="readonly", takefocus=False, width=14)
         self.increments.pack(fill="x", pady=px(4))
@@ -329,10 +331,10 @@ class Window:
             return "break"
         if mode == linuxcnc.MODE_MANUAL and (jog := self.jog_of(key)):
             self.start_jog(*jog, key)
-        elif mode == linuxcnc.MODE_MANUAL and key.isdigit() and int(key) < len(self.values):
+        elif mode == linuxcnc.MODE_MANUAL and key.isdigit() and int(key) < len(self.m.names(self.joints)):
             self.selected.set(int(key))
-        elif mode == linuxcnc.MODE_MANUAL and key.upper() in self.m.letters:
-            self.selected.set(self.m.index_of(key.upper()))
+        elif mode == linuxcnc.MODE_MANUAL and (row := self.m.row_of(key.upper(), self.joints)) is not None:
+            self.selected.set(row)
         elif mode == linuxcnc.MODE_AUTO and key.isdigit():
             self.m.command.feedrate((int(key) or 10) / 10)
         else:
@@ -349,7 +351,8 @@ class Window:
         if key in ("minus", "equal", "KP_Subtract", "KP_Add"):
             return self.selected.get(), -1 if key in ("minus", "KP_Subtract") else 1
         letter, direction = JOG_KEYS.get(key, (None, 0))
-        return (self.m.index_of(letter), direction) if letter in self.m.letters else None
+        row = self.m.row_of(letter, self.joints)
+        return None if row is None else (row, direction)
 
     def key_release(self, event):
         """A release counts when no press of the same key follows at once: keys repeat."""
@@ -370,8 +373,8 @@ class Window:
         if self.m.stat.task_mode == linuxcnc.MODE_MANUAL:
             text = self.incremental.get()
             self.selected.set(row)
-            self.jog.start(row, direction, self.m.speed(row, self.linear.get(), self.angular.get()),
-                           None if text == CONTINUOUS else text, key)
+            self.jog.start(row, direction, (self.linear.get(), self.angular.get()),
+                           None if text == CONTINUOUS else text, key, self.joints)
 
     def stop_jog(self):
         for pending in self.releases.values():
@@ -380,7 +383,7 @@ class Window:
         self.jog.stop()
 
     def home(self):
-        self.m.home(self.selected.get())
+        self.m.home(self.selected.get(), self.joints)
 
     def faster(self, variable, step, most):
         variable.set(min(max(variable.get() + step * most / 20, 0), most))
@@ -486,16 +489,7 @@ class Window:
                            ("spindle", SHOWN["spindle"][direction]), ("brake", SHOWN["brake"][not spindle["brake"]]),
                            ("flood", SHOWN["flood"][not s.flood]), ("mode", MODES.get(s.task_mode, "?"))):
             buttons[name].configure(text=text)
-        joints = not self.world.get()
-        names = self.m.names(joints)
-        colours = self.style.colours
-        for row, (label, value) in enumerate(zip(self.names, self.values)):
-            shown = row < len(names)
-            label.configure(text=names[row] if shown else "")
-            homed = shown and self.m.row_homed(row, joints)
-            value.configure(text="%10.4f"
-                            % self.m.position(row, joints, self.relative.get(), self.actual.get(), self.units.get())
-                            if shown else "", foreground=colours["good" if homed else "bad"])
+        self.show_rows()
         unit = self.m.unit_name(self.units.get())
         self.info.configure(text=_("Units: %s\nTool: %s\nSystem: G%s")
                             % (unit, s.tool_in_spindle, self.m.system_name()))
@@ -503,10 +497,37 @@ class Window:
         self.codes.configure(text=f"{gcodes}  " + " ".join(f"M{c:g}" for c in s.mcodes[1:] if c != -1)
                              + f"  F{s.settings[1]:.0f} S{s.settings[2]:.0f}")
         self.optional_stop.set(bool(s.optional_stop))
+        self.override.set(self.m.limits_overridden())
         for name, variable, value in (("feed", self.feed, s.feedrate), ("spindle", self.spindle, spindle["override"])):
             if not self.scales[name].instate(["pressed"]) and abs(variable.get() - 100 * value) > 0.5:
                 variable.set(100 * value)
         self.show_program()
+
+    def follow_homing(self):
+        """Rows are joints where that is chosen, or there is no other way; the end of homing leads to axes."""
+        if self.m.all_homed and not self.was_homed and self.world.get():
+            self.m.teleop(True)
+        self.was_homed = self.m.all_homed
+        joints = not self.world.get() or self.m.joints_only()
+        if joints != self.joints:
+            self.stop_jog()
+            self.joints = joints
+            self.selected.set(0)
+
+    def show_rows(self):
+        self.follow_homing()
+        names, colours = self.m.names(self.joints), self.style.colours
+        for row, (label, value) in enumerate(zip(self.names, self.values)):
+            if row >= len(names):
+                label.grid_remove()
+                value.grid_remove()
+                continue
+            label.grid()
+            value.grid()
+            label.configure(text=names[row])
+            position = self.m.position(row, self.joints, self.relative.get(), self.actual.get(), self.units.get())
+            value.configure(text="%10.4f" % position,
+                            foreground=colours["good" if self.m.row_homed(row, self.joints) else "bad"])
 
     def show_program(self):
         s = self.m.stat

@@ -24,6 +24,7 @@ class Popups:
         top.title(title)
         top.transient(self.w.root)
         top.bind("<Escape>", lambda event: top.destroy())
+        top.bind("<F1>", lambda event: self.w.m.toggle_estop())
         return top
 
     def text(self, title, text):
@@ -39,11 +40,12 @@ class Popups:
         return top
 
     def message(self, text, error):
-        """Stays until OK; the machine goes on. The same text is not shown twice."""
+        """Stays until OK; the machine goes on, except by Escape. The same text is not shown twice."""
         self.shown = [(t, top) for t, top in self.shown if top.winfo_exists()]
         if any(t == text for t, _top in self.shown):
             return
         top, px = self.open(_("Error") if error else _("Message")), self.w.style.px
+        top.bind("<Escape>", lambda event: self.w.abort(), add=True)
         ttk.Label(top, text=text, wraplength=px(480), padding=px(16), style="Bad.TLabel" if error else "TLabel").pack()
         ttk.Button(top, text="OK", command=top.destroy).pack(pady=(0, px(10)))
         self.shown.append((text, top))
@@ -67,10 +69,11 @@ class Popups:
 
     def mdi(self, text):
         m = self.w.m
+        before = m.stat.task_mode
         if m.mode(linuxcnc.MODE_MDI):
             m.command.mdi(text)
             m.command.wait_complete(10.0)
-            m.mode(linuxcnc.MODE_MANUAL)
+            m.mode(before)
 
     def form(self, title, fields, action):
         """Entries with names; action gets the numbers that were typed."""
@@ -96,7 +99,8 @@ class Popups:
         buttons.pack()
         ttk.Button(buttons, text="OK", command=accept).pack(side="left", padx=px(4))
         ttk.Button(buttons, text=_("Cancel"), command=top.destroy).pack(side="left", padx=px(4))
-        top.bind("<Return>", accept)
+        for key in ("<Return>", "<KP_Enter>"):
+            top.bind(key, accept)
         next(iter(entries.values())).focus_set()
         self.last_form = (top, entries, accept)
 
@@ -114,18 +118,38 @@ class Popups:
         self.form(_("Set Coordinates of %s") % system, fields, act)
 
     def tool_offset(self):
-        """Length and diameter of a tool go into the tool table."""
+        """Length and diameter of a tool, in the program's units, go into the tool table."""
         m = self.w.m
         m.stat.poll()
-        tool = m.stat.tool_table[0] if m.stat.tool_table else None
+        unit = m.unit_name("auto")
+        length, diameter = f"{LENGTH} ({unit})", f"{DIAMETER} ({unit})"
+        shown = {}          # as filled in: has less digits than the table
 
         def act(values):
-            number = int(values.get(TOOL, 0))
-            if number > 0:
-                self.mdi(f"G10 L1 P{number} Z{values.get(LENGTH, 0):.6f} R{values.get(DIAMETER, 0) / 2:.6f}")
-        self.form(_("Tool offset"),
-                  {TOOL: str(max(m.stat.tool_in_spindle, 0)), LENGTH: f"{tool.zoffset:.4f}" if tool else "0",
-                                  DIAMETER: f"{tool.diameter:.4f}" if tool else "0"}, act)
+            words = [f"{letter}{values[name] * share:.6f}" for letter, name, share in (("Z", length, 1), ("R", diameter, .5))
+                     if name in values and values[name] != shown.get(name)]
+            if (number := int(values.get(TOOL, 0))) > 0 and words:
+                self.mdi(f"G10 L1 P{number} {' '.join(words)}")
+        self.form(_("Tool offset"), {TOOL: str(max(m.stat.tool_in_spindle, 0)), length: "", diameter: ""}, act)
+        entries = self.last_form[1]
+
+        def fill(*_changed):
+            """What the table has of the tool that is typed; nothing for one that it has not."""
+            shown.clear()
+            try:
+                tool = m.stat.toolinfo(int(number.get()))
+            except (ValueError, IndexError, KeyError, linuxcnc.error):
+                tool = None
+            for name, key in ((length, "zoffset"), (diameter, "diameter")):
+                entries[name].delete(0, "end")
+                if tool:
+                    text = f"{tool[key] * m.factor('auto'):.4f}"
+                    shown[name] = float(text)
+                    entries[name].insert(0, text)
+        number = tk.StringVar(entries[TOOL], entries[TOOL].get())
+        entries[TOOL].configure(textvariable=number)
+        number.trace_add("write", fill)
+        fill()
 
     def backplot(self):
         """The way of the tool from above, as it goes."""
