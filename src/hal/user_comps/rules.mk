@@ -33,5 +33,5 @@ $(eval $(call program,wj200_vfd,src/hal/user_comps/vfd/wj200_vfd.cc $(LINE_DRIVE
 $(eval $(call program,pi500_vfd,src/hal/user_comps/vfd/pi500_vfd.cc $(LINE_DRIVES),linuxcnchal $(LIBMODBUS_LIBS),$(LIBMODBUS_CFLAGS) -Isrc/hal/user_comps))
 endif
 ifeq ($(HAVE_LIBUSB10),yes)
-$(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
+$(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc src/hal/user_comps/xhc_usb.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
 endif

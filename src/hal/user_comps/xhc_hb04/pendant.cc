@@ -4,11 +4,11 @@
 #include "pendant.hh"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "inifile.hh"
+#include "xhc_usb.hh"
 
 namespace xhc {
 
@@ -16,29 +16,6 @@ namespace {
 
 constexpr int REPORT_SIZE = 6, REPORT_ID = 4;
 constexpr size_t MAX_BUTTONS = 32;
-constexpr int IMAGE_SIZE = 42, DISPLAY_REPORT = 6;
-
-void put16(uint8_t *at, unsigned value) {
-    at[0] = static_cast<uint8_t>(value & 0xFF);
-    at[1] = static_cast<uint8_t>(value >> 8 & 0xFF);
-}
-
-/// Whole part, then ten-thousandths with the sign.
-void put_coordinate(uint8_t *at, double value) {
-    double size = std::isfinite(value) ? std::min(std::fabs(value), 65535.0) : 0.0;
-    unsigned whole = static_cast<unsigned>(size), part = static_cast<unsigned>(std::lround((size - whole) * 10000));
-    if (part == 10000) {
-        part = 0;
-        whole++;
-    }
-    put16(at, whole);
-    put16(at + 2, part | (value < 0 && (whole || part) ? 0x8000U : 0U));
-}
-
-void put_number(uint8_t *at, double value) {
-    put16(at, static_cast<unsigned>(std::isfinite(value) ? std::lround(std::clamp(value, -32768.0, 32767.0)) : 0) &
-                  0xFFFFU);
-}
 
 uint8_t step_code(int step) {
     constexpr int STEPS[] = {0, 1, 5, 10, 20, 30, 40, 50, 100, 500, 1000};
@@ -104,24 +81,19 @@ std::vector<int> step_sequence(int number) {
     }
 }
 
-std::array<std::array<uint8_t, BLOCK_SIZE>, BLOCKS> image(const Shown &shown) {
-    uint8_t bytes[IMAGE_SIZE] = {0xFE, 0xFD, 0x0C};
+Image image(const Shown &shown) {
+    Image bytes = {0xFE, 0xFD, 0x0C};
     for (size_t n = 0; n < 3; n++) {
-        put_coordinate(bytes + 3 + 4 * n, shown.relative[n]);
-        put_coordinate(bytes + 15 + 4 * n, shown.absolute[n]);
+        put_coordinate(&bytes[3 + 4 * n], shown.relative[n]);
+        put_coordinate(&bytes[15 + 4 * n], shown.absolute[n]);
     }
-    put_number(bytes + 27, shown.feed_override_percent);
-    put_number(bytes + 29, shown.spindle_override_percent);
-    put_number(bytes + 31, shown.feed);
-    put_number(bytes + 33, shown.spindle);
+    put_number(&bytes[27], shown.feed_override_percent);
+    put_number(&bytes[29], shown.spindle_override_percent);
+    put_number(&bytes[31], shown.feed);
+    put_number(&bytes[33], shown.spindle);
     bytes[35] = step_code(shown.step);
     bytes[36] = shown.inch ? 0x80 : 0;
-    std::array<std::array<uint8_t, BLOCK_SIZE>, BLOCKS> blocks;
-    for (size_t b = 0; b < BLOCKS; b++) {
-        blocks[b][0] = DISPLAY_REPORT;
-        std::copy_n(bytes + b * (BLOCK_SIZE - 1), BLOCK_SIZE - 1, blocks[b].begin() + 1);
-    }
-    return blocks;
+    return bytes;
 }
 
 } // namespace xhc

@@ -50,8 +50,8 @@ struct Shown {
     bool inch = false;
 };
 
-constexpr int BLOCKS = 6, BLOCK_SIZE = 8;
-/// The display's image as blocks of report 6.
-std::array<std::array<uint8_t, BLOCK_SIZE>, BLOCKS> image(const Shown &shown);
+using Image = std::array<uint8_t, 42>;
+/// The display's image.
+Image image(const Shown &shown);
 
 } // namespace xhc

@@ -2,7 +2,6 @@
 //
 // xhc_hb04.cc - xhc-hb04: a wireless pendant with wheel, buttons and display as HAL pins (libusb).
 // Source: sheet of USB drivers, section 8. Without -H the events are printed.
-#include <libusb.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -10,108 +9,23 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <thread>
 
 #include "hal.h"
 #include "hardware_program.hh"
 #include "pendant.hh"
+#include "xhc_usb.hh"
 
 namespace xhc {
 
 namespace {
 
-constexpr uint16_t VENDOR = 0x10CE, PRODUCT = 0xEB70;
-constexpr unsigned WAIT_MS = 30, SEND_MS = 100;
-constexpr uint8_t DEFAULT_ENDPOINT = 0x81;
+constexpr const char *NAME = "xhc-hb04";
+constexpr uint16_t PRODUCT = 0xEB70;
 constexpr double MAX_WAIT_SECS = 10, SEARCH_S = 1, AFTER_LOSS_S = 5, STILL_S = 0.25;
 
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
-
-/// Returns early when the program ends.
-void pause(double seconds) {
-    for (auto begin = Clock::now(); !ending && since(begin) < seconds;)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-}
-
-// ---- USB ----
-
-class Usb {
-public:
-    ~Usb() {
-        close();
-        if (context_) libusb_exit(context_);
-    }
-
-    /// False without a device, or without the right to open it (told once).
-    bool open() {
-        if (!context_ && libusb_init(&context_) != 0) return false;
-        handle_ = libusb_open_device_with_vid_pid(context_, VENDOR, PRODUCT);
-        if (!handle_) return false;
-        libusb_set_auto_detach_kernel_driver(handle_, 1);
-        int result = libusb_claim_interface(handle_, 0);
-        if (result != 0) {
-            if (!told_) fprintf(stderr, "xhc-hb04: the pendant cannot be used: %s\n", libusb_error_name(result));
-            told_ = true;
-            libusb_close(handle_);
-            handle_ = nullptr;
-            return false;
-        }
-        endpoint_ = endpoint();
-        return true;
-    }
-
-    void close() {
-        if (!handle_) return;
-        libusb_release_interface(handle_, 0);
-        libusb_close(handle_);
-        handle_ = nullptr;
-    }
-
-    enum class Got { nothing, report, lost };
-
-    Got read(Report &report) {
-        uint8_t data[64];
-        int size = 0;
-        int result = libusb_interrupt_transfer(handle_, endpoint_, data, sizeof data, &size, WAIT_MS);
-        if (result == LIBUSB_ERROR_TIMEOUT || result == LIBUSB_ERROR_INTERRUPTED) return Got::nothing;
-        if (result != 0) return Got::lost;
-        return parse(data, size, report) ? Got::report : Got::nothing;
-    }
-
-    bool show(const Shown &shown) {
-        for (auto &block : image(shown)) {
-            int sent = libusb_control_transfer(handle_, 0x21, 0x09, 0x0306, 0, block.data(), BLOCK_SIZE, SEND_MS);
-            if (sent == LIBUSB_ERROR_NO_DEVICE || sent == LIBUSB_ERROR_IO) return false;
-        }
-        return true;
-    }
-
-private:
-    uint8_t endpoint() {
-        libusb_config_descriptor *config = nullptr;
-        uint8_t found = DEFAULT_ENDPOINT;
-        if (libusb_get_active_config_descriptor(libusb_get_device(handle_), &config) != 0) return found;
-        if (config->bNumInterfaces > 0 && config->interface[0].num_altsetting > 0) {
-            const libusb_interface_descriptor &first = config->interface[0].altsetting[0];
-            for (int n = 0; n < first.bNumEndpoints; n++)
-                if (first.endpoint[n].bEndpointAddress & LIBUSB_ENDPOINT_IN) {
-                    found = first.endpoint[n].bEndpointAddress;
-                    break;
-                }
-        }
-        libusb_free_config_descriptor(config);
-        return found;
-    }
-
-    libusb_context *context_ = nullptr;
-    libusb_device_handle *handle_ = nullptr;
-    uint8_t endpoint_ = DEFAULT_ENDPOINT;
-    bool told_ = false;
-};
-
-// ---- HAL ----
 
 struct AxisPins {
     hal_float_t *pos_absolute, *pos_relative;
@@ -161,7 +75,7 @@ private:
                 sought = true;
                 for (auto look = Clock::now(); !ending && since(look) < SEARCH_S;) {
                     select_step(); // the pins work without a pendant, too
-                    pause(WAIT_MS * 1e-3);
+                    pause_s(Usb::WAIT_MS * 1e-3);
                 }
                 continue;
             }
@@ -180,7 +94,7 @@ private:
             if (ending) break;
             fprintf(stderr, "xhc-hb04: the pendant is lost\n");
             if (options_.require) return 1;
-            pause(AFTER_LOSS_S);
+            pause_s(AFTER_LOSS_S);
         }
         return 0;
     }
@@ -188,17 +102,20 @@ private:
     void serve() {
         while (!ending) {
             Report report;
-            Usb::Got got = usb_.read(report);
+            uint8_t data[Usb::REPORT_MOST];
+            int size;
+            Usb::Got got = usb_.read(data, size);
             if (got == Usb::Got::lost) return;
-            if (got == Usb::Got::report) {
+            const bool reported = got == Usb::Got::report && parse(data, size, report);
+            if (reported) {
                 last_ = report;
                 if (options_.hal) take(report);
                 else print(report);
             }
             if (!options_.hal) continue;
-            wheel(got == Usb::Got::report ? report.wheel : 0);
+            wheel(reported ? report.wheel : 0);
             select_step();
-            if (!usb_.show(shown())) return;
+            if (const Image bytes = image(shown()); !usb_.show(bytes.data(), bytes.size())) return;
         }
     }
 
@@ -244,7 +161,7 @@ private:
         Pins &p = *pins_;
         if (delta != 0) {
             turned_ = Clock::now();
-            counts_ = static_cast<int32_t>(static_cast<uint32_t>(counts_) + static_cast<uint32_t>(delta));
+            counts_ = counted(counts_, delta);
             *p.counts = counts_;
             *p.counts_neg = static_cast<int32_t>(-static_cast<uint32_t>(counts_));
             *p.increment = std::fabs(delta * *p.scale);
@@ -312,7 +229,7 @@ private:
     }
 
     bool make_pins() {
-        component_ = hal_init("xhc-hb04");
+        component_ = hal_init(NAME);
         if (component_ < 0) return false;
         pins_ = static_cast<Pins *>(hal_malloc(sizeof(Pins)));
         if (pins_ && pins_of_axes() && other_pins()) {
@@ -376,7 +293,7 @@ private:
     int32_t counts_ = 0;
     Clock::time_point turned_{};
     Report last_;
-    Usb usb_;
+    Usb usb_{NAME, PRODUCT};
     int component_ = -1;
     Pins *pins_ = nullptr;
 };
@@ -410,7 +327,7 @@ int run_program(int argc, char **argv) {
     }
     std::vector<Button> buttons;
     if (!options.layout.empty() && !read_layout(options.layout, buttons)) return 1;
-    begin_hardware_program("xhc-hb04");
+    begin_hardware_program(NAME);
     return Program(options, std::move(buttons)).run();
 }
 
