@@ -117,7 +117,8 @@ static int mask_of(const char *name, const char *text, rtapi_u32 *mask)
     long long value = strtoll(text, &end, 0);
     if(end == text || *end || value < -0x80000000ll || value > 0xFFFFFFFFll) {
         rtapi_print_msg(RTAPI_MSG_ERR,
-                        TAG "%s=%s: must be a mask of 32 bits: decimal, 0x and hexadecimal, or 0 and octal\n", name, text);
+                        TAG "%s=%s: must be a mask of 32 bits: decimal, 0x and hexadecimal, or 0 and octal\n",
+                        name, text);
         return -EINVAL;
     }
     *mask = (rtapi_u32)value;
@@ -136,8 +137,8 @@ static int check_model(void)
     }
     if(strncmp(model, "Raspberry", 9) == 0) return 0;
     rtapi_print_msg(RTAPI_MSG_ERR,
-                    TAG "unrecognized Raspberry revision: this computer %s%s%s; hal_gpio drives the GPIO of other boards\n",
-                    f ? "is a '" : "has no /proc/device-tree/model", model, f ? "'" : "");
+                    TAG "unrecognized Raspberry revision: this computer %s%s%s; hal_gpio drives the GPIO of other "
+                    "boards\n", f ? "is a '" : "has no /proc/device-tree/model", model, f ? "'" : "");
     return -EINVAL;
 }
 

@@ -34,4 +34,5 @@ $(eval $(call program,pi500_vfd,src/hal/user_comps/vfd/pi500_vfd.cc $(LINE_DRIVE
 endif
 ifeq ($(HAVE_LIBUSB10),yes)
 $(eval $(call program,xhc-hb04,src/hal/user_comps/xhc_hb04/xhc_hb04.cc src/hal/user_comps/xhc_hb04/pendant.cc src/hal/user_comps/xhc_usb.cc,linuxcnchal linuxcncini $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/emc/ini -Isrc/hal/user_comps))
+$(eval $(call program,xhc-whb04b-6,src/hal/user_comps/xhc_whb04b6/xhc_whb04b6.cc src/hal/user_comps/xhc_whb04b6/pendant.cc src/hal/user_comps/xhc_usb.cc,linuxcnchal $(LIBUSB10_LIBS),$(LIBUSB10_CFLAGS) -Isrc/hal/user_comps))
 endif

@@ -1,69 +1,23 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """xhc-hb04 with a pendant in place of libusb: buttons, rotary, wheel, steps, display, a pendant that goes and comes."""
-import os
-import signal
 import struct
-import subprocess
-import time
 from pathlib import Path
 
-from hal_outside import halcmd, pins, until
+from hal_outside import pins, until
+from usb_pendant import Pendant, coordinates, end
 
-folder = Path(os.environ["PENDANT"])
 layouts = Path(__file__).resolve().parents[3] / "lib/hallib"
-pipe = os.open(folder / "in", os.O_RDWR)
-environment = dict(os.environ, LD_PRELOAD=str(folder / "usb.so"))
+pendant = Pendant("xhc-hb04", "xhc-hb04", 0xEB70, 6, 48)
+folder, start, ready, image, loops = pendant.folder, pendant.start, pendant.ready, pendant.image, pendant.loops
+get, setp, on = pendant.get, pendant.setp, pendant.on
 
 
-def get(pin):
-    return halcmd("getp", "xhc-hb04." + pin)
+def report(button=0, rotary=0, wheel=0):
+    pendant.send(struct.pack("BBBBbB", 4, button, 0, rotary, wheel, 0))
 
 
-def setp(pin, value):
-    halcmd("setp", "xhc-hb04." + pin, str(value))
-
-
-def on(*names):
-    """Which of these are TRUE."""
-    return [n for n in names if get(n) == "TRUE"]
-
-
-def report(button=0, rotary=0, wheel=0, head=4):
-    os.write(pipe, struct.pack("BBBBbB", head, button, 0, rotary, wheel, 0))
-
-
-def start(*options, **changes):
-    return subprocess.Popen(["xhc-hb04", *options], env=environment | changes, stdin=subprocess.DEVNULL,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-
-
-def end(program):
-    program.send_signal(signal.SIGTERM)
-    print("ends with", program.wait(20), program.stdout.read().splitlines())
-
-
-def ready():
-    return "xhc-hb04" in halcmd("list", "comp").split()
-
-
-def loops():
-    """The program has been round at least once since the call: it sends a display of 48 bytes each time."""
-    seen = (folder / "out").stat().st_size
-    while (folder / "out").stat().st_size < seen + 3 * 48:
-        time.sleep(0.005)
-
-
-def image():
-    """What the display shows last."""
-    blocks = (folder / "out").read_bytes()
-    last = blocks[len(blocks) // 48 * 48 - 48:len(blocks) // 48 * 48]
-    assert all(last[n] == 6 for n in range(0, 48, 8))
-    return b"".join(last[n + 1:n + 8] for n in range(0, 48, 8))
-
-
-def coordinates():
-    values = struct.unpack("<12H", image()[3:27])
-    return [(w + (f & 0x7FFF) / 10000) * (-1 if f & 0x8000 else 1) for w, f in zip(values[::2], values[1::2])]
+def shown():
+    return coordinates(image()[3:27])
 
 
 print("== without a pendant")
@@ -73,7 +27,7 @@ until(ready, "ready at once")
 print(pins("xhc-hb04.*"))
 print(on("connected", "require_pendant"), get("stepsize"), get("jog.scale"))
 print("== buttons and rotary")
-(folder / "present").touch()
+pendant.appear()
 until(lambda: on("connected"), "found")
 report(0x02, 0x12)
 until(lambda: on("button-start-pause"), "pressed")
@@ -117,25 +71,25 @@ for name, value in (("x.pos-absolute", 12.34567), ("x.pos-relative", -0.00004), 
                     ("feed-override", 1.2), ("spindle-override", 0.5), ("feed-value", 10), ("spindle-rps", -20),
                     ("inch-icon", 1)):
     setp(name, value)
-until(lambda: image()[36] == 0x80 and coordinates()[3] > 12, "shown")
+until(lambda: image()[36] == 0x80 and shown()[3] > 12, "shown")
 loops()
-print(coordinates(), struct.unpack("<4h", image()[27:35]), image()[:3].hex(), image()[35])
+print(shown(), struct.unpack("<4h", image()[27:35]), image()[:3].hex(), image()[35])
 report(0, 0x18)
-until(lambda: coordinates()[0] == 90.25, "A in place of X")
+until(lambda: shown()[0] == 90.25, "A in place of X")
 print("== a pendant that goes and comes back")
 report(0x02, 0x11, 7)
 until(lambda: on("button-start-pause"), "pressed")
-(folder / "present").unlink()
-report(head=0xFF)
+pendant.vanish()
 until(lambda: not on("connected"), "lost")
 print(on("button-start-pause", "jog.enable-x", "jog.plus-x"), get("jog.velocity"), get("jog.counts"))
-(folder / "present").touch()
+pendant.appear()
 until(lambda: on("connected"), "found again")
 end(program)
 print("== one that must be there")
 program = start("-x", "-H")
 until(lambda: ready() and on("connected", "require_pendant") == ["connected", "require_pendant"], "ready with it")
-report(head=0xFF)
+pendant.vanish()
+pendant.appear()
 print("ends with", program.wait(20), program.stdout.read().splitlines())
 print("not found: ends with", patient.wait(30), patient.stdout.read().splitlines())
 print("== without HAL, and mistakes")

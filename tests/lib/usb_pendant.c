@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
- * usb.c - a pendant for tests in place of libusb (LD_PRELOAD). In the folder PENDANT: it is there while a file
- * `present` is; reports of six bytes come from the pipe `in` (one that begins with FF: it is lost); blocks for the
- * display are added to the file `out`.
+ * usb_pendant.c - a pendant for tests in place of libusb (LD_PRELOAD). In the folder PENDANT: the file `present` has
+ * its USB product in hexadecimal and the bytes of a report, it is there while the file is; reports come from the pipe
+ * `in` (one that begins with FF: it is lost); blocks for the display are added to the file `out`.
  */
 #include <fcntl.h>
 #include <libusb.h>
@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static int in = -1;
+static int in = -1, report_bytes;
 
 static const char *path(const char *name)
 {
@@ -34,8 +34,17 @@ void libusb_exit(libusb_context *context)
 
 libusb_device_handle *libusb_open_device_with_vid_pid(libusb_context *context, uint16_t vendor, uint16_t product)
 {
+    unsigned present = 0;
+    FILE *f = fopen(path("present"), "r");
     (void)context;
-    if (vendor != 0x10CE || product != 0xEB70 || access(path("present"), F_OK) != 0) {
+    if (!f) {
+        return NULL;
+    }
+    if (fscanf(f, "%x %d", &present, &report_bytes) != 2) {
+        present = 0;
+    }
+    fclose(f);
+    if (vendor != 0x10CE || product != present) {
         return NULL;
     }
     in = open(path("in"), O_RDWR);
@@ -80,18 +89,20 @@ int libusb_get_active_config_descriptor(libusb_device *device, struct libusb_con
     return LIBUSB_ERROR_NOT_FOUND;
 }
 
-int libusb_interrupt_transfer(libusb_device_handle *handle, unsigned char endpoint, unsigned char *data, int length, int *done, unsigned timeout)
+int libusb_interrupt_transfer(libusb_device_handle *handle, unsigned char endpoint, unsigned char *data, int length,
+                              int *done, unsigned timeout)
 {
     (void)handle;
     struct pollfd wait = {in, POLLIN, 0};
-    if (endpoint != 0x81 || length < 6 || poll(&wait, 1, (int)timeout) != 1) {
+    if (endpoint != 0x81 || length < report_bytes || poll(&wait, 1, (int)timeout) != 1) {
         return LIBUSB_ERROR_TIMEOUT;
     }
-    *done = (int)read(in, data, 6);
-    return *done == 6 && data[0] != 0xFF ? 0 : LIBUSB_ERROR_NO_DEVICE;
+    *done = (int)read(in, data, (size_t)report_bytes);
+    return *done == report_bytes && data[0] != 0xFF ? 0 : LIBUSB_ERROR_NO_DEVICE;
 }
 
-int libusb_control_transfer(libusb_device_handle *handle, uint8_t type, uint8_t request, uint16_t value, uint16_t index, unsigned char *data, uint16_t length, unsigned timeout)
+int libusb_control_transfer(libusb_device_handle *handle, uint8_t type, uint8_t request, uint16_t value,
+                            uint16_t index, unsigned char *data, uint16_t length, unsigned timeout)
 {
     (void)handle;
     (void)timeout;
