@@ -62,6 +62,10 @@ show(plain, "GET BRAKE", "SET BRAKE OFF", "GET BRAKE -1", "GET BRAKE 1", "SET BR
      "GET STEP", "GET ABORT", "SET PROGRAM x", "SET PAUSE", "SET WAIT_MODE RECEIVED", "SET PAUSE", "SET RESUME",
      "SET WAIT_MODE DONE", "SET RESUME", "SET WAIT_HEARTBEAT", "SET WAIT_HEARTBEAT 0", "SET WAIT_HEARTBEAT 3000",
      "SET WAIT_HEARTBEAT 5", "SET WAIT_HEARTBEAT x", "GET WAIT_HEARTBEAT")
+print("== numbers that fit nowhere are no other number")
+show(plain, "SET JOINT_HOME 4294967296", "SET JOG 4294967296 60", "SET JOG_INCR 0 60 1e999",
+     "SET SPINDLE FORWARD 4294967296", "SET RUN 4294967297", "SET JOINT_WAIT_HOMED 4294967296", "GET ABS_ACT_POS 4294967296",
+     "GET JOINT_POS +1", "SET DEBUG 2147483648")
 print("== MDI and programs")
 show(plain, "SET MDI G0 X5", "GET ERROR", "SET MODE MDI", "GET MODE", "SET MDI G0 X5 Y-2.5", "GET ABS_ACT_POS X",
      "GET REL_ACT_POS Y", "SET MDI G92 X0", "GET REL_ACT_POS X", "GET REL_CMD_POS", "GET POS_OFFSET X", "SET MDI G92.1",
@@ -72,6 +76,12 @@ Path("short.ngc").write_text("G21 G0 X0\nG1 F6000 X2\nG1 X4\nM2\n")
 show(plain, "SET OPEN", "SET OPEN none.ngc", "SET MODE AUTO", "SET OPEN short.ngc", "SET OPEN short.ngc", "GET OPEN",
      "GET PROGRAM", "SET RUN x", "SET RUN", "GET ABS_ACT_POS X", "GET PROGRAM_STATUS", "SET RUN 3",
      "SET TASK_PLAN_INIT", "SET ABORT", "SET MODE MANUAL")
+print("== as a TELNET program sends it")
+for data in (b"GET ECHO\r\0GET ECHO\r\0", b"GET ECHO\n\rGET ECHO\n\r", b"\0\r\n\0GET ECHO\r\n",
+             b"\xff\xfb\x1f\xff\xfd\x03\xff\xfa\x1f\0\x50\0\x18\xff\xf0GET\xff\xf1 ECHO\r\n",
+             b"\xff\xf4\xffGET ECHO\r\n"):
+    plain.socket.sendall(data)
+    print(data, plain.say())
 print("== ends")
 show(plain, "SET MACHINE OFF", "GET MACHINE", "SET ESTOP ON", "GET ESTOP", "HELP", "HELP HELLO", "HELP NOSUCH")
 print("HELP SET:", len(plain.say("HELP SET")), "HELP GET:", len(plain.say("HELP GET")), plain.say("HELP SET")[1:4])

@@ -70,7 +70,7 @@ class Client:
     def say(self, *lines):
         """Sends the lines; all the lines that come back until they are done."""
         self.send(*lines, MARK)
-        text = self.read(b"PLAT Linux\r\n").decode()
+        text = self.read(b"PLAT Linux\r\n").decode(errors="replace")
         return [line for line in text.split("\r\n")[:-1] if not line.endswith(MARK)]
 
     def close(self):

@@ -3,6 +3,7 @@
 // arguments.cc - linuxcncrsh: the words after a subcommand. Source: rsh sheet, B.5 and B.6.
 #include "arguments.hh"
 
+#include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -23,11 +24,9 @@ std::string text(const char *format, ...) {
 }
 
 static bool whole(const std::string &w, int *v) {
-    char *end;
-    long l = strtol(w.c_str(), &end, 10);
-    if (w.empty() || *end) return false;
-    *v = static_cast<int>(l);
-    return true;
+    const char *end = w.data() + w.size();
+    const auto [stop, error] = std::from_chars(w.data() + (w[0] == '+' ? 1 : 0), end, *v);
+    return error == std::errc() && stop == end;
 }
 
 bool real(const std::string &w, double *v) {

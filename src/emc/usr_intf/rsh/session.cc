@@ -26,6 +26,7 @@
 namespace rsh {
 
 constexpr int64_t MS = 1'000'000;
+constexpr int64_t LAST_ANSWERS_NS = 2000 * MS; // for a client to read them
 constexpr size_t MAX_LINE = 4096; // bytes; half a command is never executed
 constexpr size_t MAX_LINES = 1000, MAX_OUTPUT = 1'000'000; // lines that wait, bytes of unread answers
 
@@ -79,16 +80,53 @@ bool Session::password_is(const std::string &given, const std::string &password)
 
 Session::~Session() {
     close(fd);
+    end_jogs();
+}
+
+// Those that still go: a stop that nobody needs would be an error, in a running program for instance.
+void Session::end_jogs() {
+    if (jogs.empty()) return;
+    server_.refresh();
+    const EMC_STAT &t = server_.stat;
+    const bool go = t.task.state == EMC_TASK_STATE_ON && t.task.mode == EMC_TASK_MODE_MANUAL && t.motion.jogging_active;
     for (auto &[nr, mode] : jogs) {
         EMC_JOG_STOP m;
         m.joint_or_axis = nr;
         m.jjogmode = mode;
-        server_.client->send(m);
+        if (go) server_.client->send(m);
     }
+    jogs.clear();
+}
+
+void Session::disable() {
+    enabled = false;
+    end_jogs();
+}
+
+// Whether this byte belongs to a command of the TELNET protocol (RFC 854), which is passed over.
+bool Session::telnet(unsigned char c) {
+    enum { SE = 240, SB = 250, WILL = 251, DONT = 254, IAC = 255 };
+    switch (telnet_) {
+    case Telnet::text:
+        if (c != IAC) return false;
+        telnet_ = Telnet::command;
+        return true;
+    case Telnet::command:
+        telnet_ = c == SB ? Telnet::parameters : c >= WILL && c <= DONT ? Telnet::option : Telnet::text;
+        return c >= SE; // else the command itself was out of band
+    case Telnet::option: telnet_ = Telnet::text; return true;
+    case Telnet::parameters:
+        if (c == IAC) telnet_ = Telnet::end_of_parameters;
+        return true;
+    case Telnet::end_of_parameters: telnet_ = c == SE ? Telnet::text : Telnet::parameters; return true;
+    }
+    return false;
 }
 
 void Session::input(const char *data, size_t n) {
     for (size_t i = 0; i < n; i++) {
+        if (telnet(static_cast<unsigned char>(data[i]))) continue;
+        if (data[i] == 0 && partial_.empty()) continue; // CR NUL ends a line of TELNET
         if (data[i] == '\r' || data[i] == '\n') {
             if (!partial_.empty()) lines_.push_back(partial_);
             partial_.clear();
@@ -132,7 +170,7 @@ void Session::next_line() {
     }
     if (command == "QUIT") {
         echo_line();
-        enabled = false;
+        disable();
         reply("QUIT ACK");
         closing = true;
         return;
@@ -156,7 +194,8 @@ void Session::next_line() {
 
 void Session::hello(const Words &w) {
     if (w.size() < 3) return error("Too few arguments for 'HELLO' command");
-    linked = enabled = false;
+    linked = false;
+    disable();
     if (w[2].size() > 80) {
         error("Client name too long, 80 characters at most");
         return reply("HELLO NAK");
@@ -223,6 +262,7 @@ void Session::set(const Words &w, const std::string &line) {
         wait_for_done_ = wait_done;
         [[fallthrough]];
     case Result::waits:
+    case Result::watches:
         waiting_ = s;
         started_ = kerf_clock_now_ns();
         interval_ = MS;
@@ -234,10 +274,11 @@ void Session::set(const Words &w, const std::string &line) {
 // A client that is gone, or has ended its input, waits on for its own sake only.
 bool Session::holds_others_up() const { return waiting_ && waiting_->remote && !input_ended; }
 
-void Session::finish_wait(int status) {
+void Session::finish_wait(bool good) {
     std::string name = waiting_->name;
     waiting_ = nullptr;
-    if (status == RCS_ERROR) reply("SET " + name + " NAK");
+    watch_ = nullptr;
+    if (!good) reply("SET " + name + " NAK");
     else if (verbose) reply("SET " + name + " ACK");
 }
 
@@ -245,13 +286,20 @@ void Session::poll_waiting() {
     int64_t now = kerf_clock_now_ns();
     if (!waiting_ || now < next_poll_) return;
     server_.refresh();
+    if (watch_) {
+        const Result r = watch_();
+        if (r != Result::watches) return finish_wait(r == Result::done);
+        next_poll_ = now + static_cast<int64_t>(server_.servo_period_s() * 1e9);
+        return;
+    }
     int diff = server_.stat.echo_serial_number - serial_;
     int status = server_.stat.status;
-    if (diff > 0) return finish_wait(RCS_DONE);
-    if (diff == 0 && (!wait_for_done_ || status == RCS_DONE || status == RCS_ERROR)) return finish_wait(status);
+    if (diff > 0) return finish_wait(true);
+    if (diff == 0 && (!wait_for_done_ || status == RCS_DONE || status == RCS_ERROR))
+        return finish_wait(status != RCS_ERROR);
     if (timeout_s > 0 && static_cast<double>(now - started_) > timeout_s * 1e9) {
         error("command 'SET " + std::string(waiting_->name) + "' timed out");
-        return finish_wait(status);
+        return finish_wait(status != RCS_ERROR);
     }
     interval_ = std::min<int64_t>(interval_ * 2, 100 * MS);
     next_poll_ = now + interval_;
@@ -315,6 +363,8 @@ void Server::refresh() { client->refresh(&stat); }
 void Server::sleep_heartbeats(double n) { kerf_clock_sleep_ns(static_cast<int64_t>(n * servo_period_s_ * 1e9)); }
 
 void Server::read_messages() {
+    for (auto *queue : {&error_text, &operator_text, &operator_display}) // nobody need ask for each kind
+        if (queue->size() > MAX_LINES) queue->erase(queue->begin(), queue->end() - MAX_LINES);
     for (;;) {
         switch (errors->read()) {
         case 1: // NML_ERROR, whose type name is taken
@@ -417,7 +467,8 @@ void Server::run(const volatile int *stop) {
                 {events ? s.first : -1, events, 0}); // one that has ended its input and gets nothing has no news
             ids.push_back(s.first);
             if (s.second->waiting()) timeout = std::min(timeout, std::max<int64_t>(0, s.second->next_poll_ns() - now));
-            else if (s.second->has_line()) timeout = std::clamp<int64_t>(s.second->rate.next_ns() - now, 0, timeout);
+            else if (s.second->has_line() && !s.second->closing && !shutdown)
+                timeout = std::clamp<int64_t>(s.second->rate.next_ns() - now, 0, timeout);
         }
         kerf_clock_poll(fds.data(), fds.size(), timeout);
         for (size_t i = 0; i < ids.size(); i++) {
@@ -465,6 +516,11 @@ void Server::run(const volatile int *stop) {
                 ssize_t n = send(s.fd, s.output.data(), s.output.size(), MSG_NOSIGNAL);
                 if (n > 0) s.output.erase(0, static_cast<size_t>(n));
                 else if (n < 0 && errno != EAGAIN && errno != EINTR) s.output.clear(), s.closing = true;
+            }
+            if (s.closing || shutdown) { // who does not read the last answers does not get them
+                const int64_t at = kerf_clock_now_ns();
+                if (s.last_answers_until == 0) s.last_answers_until = at + LAST_ANSWERS_NS;
+                if (at >= s.last_answers_until) s.output.clear();
             }
             if ((s.closing || shutdown) && s.output.empty()) it = sessions.erase(it);
             else ++it;

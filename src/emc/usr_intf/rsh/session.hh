@@ -5,8 +5,10 @@
 #define KERF_RSH_SESSION_HH
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,8 @@ namespace rsh {
 
 enum class Level { none, hello, enable, on };
 // sent: a command to task, the answer comes when task has done (or received) it; waits: the same
-// for the command before, as wait_for() says
-enum class Result { failed, done, sent, waits };
+// for the command before, as wait_for() says; watches: it comes when what watch() got says so
+enum class Result { failed, done, sent, waits, watches };
 
 using Words = std::vector<std::string>;
 
@@ -48,6 +50,7 @@ public:
     std::string client, version = "1.1", opened;
     nml::RateLimit rate; // of its lines
     bool closing = false, input_ended = false;
+    int64_t last_answers_until = 0; // once it is closing
 
     void input(const char *data, size_t n);
     bool has_line() const { return !lines_.empty(); }
@@ -58,6 +61,9 @@ public:
     const Subcommand *waiting_for() const { return waiting_; }
     bool holds_others_up() const; // no other connection may give task a command now
     void wait_for(bool done) { wait_for_done_ = done; }
+    // Asked every heartbeat; watches: not yet.
+    void watch(std::function<Result()> ask) { watch_ = std::move(ask); }
+    void disable(); // also ends its jogs, which it could not end any more
     int64_t next_poll_ns() const { return next_poll_; }
 
     void reply(const std::string &text);
@@ -65,7 +71,7 @@ public:
     void warning(const std::string &text) { reply("warning: " + text); }
     std::string output;
     // Continuous jogs that this connection began (number, jjogmode): they end with it.
-    std::vector<std::pair<int, int>> jogs;
+    std::set<std::pair<int, int>> jogs;
     // Other computers never send a password but its answer to the challenge they asked for:
     // HMAC-SHA256(password, challenge), both in hexadecimal digits. Good once.
     std::string new_challenge();
@@ -76,7 +82,11 @@ private:
     void get(const Words &w, const std::string &line);
     void set(const Words &w, const std::string &line);
     void help(const Words &w);
-    void finish_wait(int status);
+    void finish_wait(bool good);
+    void end_jogs();
+    bool telnet(unsigned char c);
+    enum class Telnet { text, command, option, parameters, end_of_parameters } telnet_ = Telnet::text;
+    std::function<Result()> watch_;
     Server &server_;
     const bool neighbour_;
     std::string challenge_;

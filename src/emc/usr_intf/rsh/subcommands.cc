@@ -237,9 +237,8 @@ Result wait_homed(Session &s, Server &v, const Words &a) {
     if (timeout > 30)
         s.warning(
             "Timeout above 30 seconds. The remote shell and all other remote connections may stall for this period.");
-    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout * 1e9);
-    for (int idle = 0;;) {
-        v.refresh();
+    const int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout * 1e9);
+    s.watch([&s, &v, j, timeout, until, idle = 0]() mutable {
         bool done = true, all = true;
         for (int n = j < 0 ? 0 : j; n < (j < 0 ? v.joints() : j + 1); n++) {
             const EMC_JOINT_STAT &joint = v.stat.motion.joint[n];
@@ -252,17 +251,13 @@ Result wait_homed(Session &s, Server &v, const Words &a) {
             if (joint.homing) done = false;
         }
         idle = done ? idle + 1 : 0;
-        if (all || idle > HOMING_GAP) break; // between two steps of a sequence nothing homes
-        if (kerf_clock_now_ns() > until) {
-            s.error(j < 0 ? text("One or more joints are still not homed after %.1f seconds", timeout)
-                          : text("Joint '%d' still not homed after %.1f seconds", j, timeout));
-            return Result::failed;
-        }
-        v.sleep_heartbeats(1);
-    }
-    v.sleep_heartbeats(1);
-    v.refresh();
-    return Result::done;
+        if (all || idle > HOMING_GAP) return Result::done; // between two steps of a sequence nothing homes
+        if (kerf_clock_now_ns() <= until) return Result::watches;
+        s.error(j < 0 ? text("One or more joints are still not homed after %.1f seconds", timeout)
+                      : text("Joint '%d' still not homed after %.1f seconds", j, timeout));
+        return Result::failed;
+    });
+    return Result::watches;
 }
 
 Result home(Session &s, Server &v, const Words &a, const std::string &) {
@@ -343,7 +338,7 @@ void link_subcommands(Table &table) {
                      nullptr});
     table.push_back({"DISABLE", Level::hello, false, 0, 0, "[connection]", nullptr, [](S s, V v, A a, R) {
                          if (a.empty()) {
-                             s.enabled = false;
+                             s.disable();
                              s.reply("DISABLE SELF");
                              return Result::done;
                          }
@@ -358,7 +353,7 @@ void link_subcommands(Table &table) {
                              s.error("Client '" + a[0] + "' is not enabled");
                              return Result::failed;
                          }
-                         it->second->enabled = false;
+                         it->second->disable();
                          s.reply("DISABLE " + a[0] + " " + it->second->client);
                          return Result::done;
                      }});
@@ -370,7 +365,7 @@ void link_subcommands(Table &table) {
                                  s.error("Trying to set enable to off on a non-enabled link");
                                  return Result::failed;
                              }
-                             s.enabled = false;
+                             s.disable();
                              return Result::done;
                          }
                          if (!s.password_is(a[0], v.options.enable_password)) return Result::failed;
@@ -565,7 +560,7 @@ void machine_subcommands(Table &table) {
                          if (!jog_target(s, v, a[0], &m.joint_or_axis, &m.jjogmode) || !real(a[1], &speed))
                              return Result::failed;
                          m.vel = speed / 60;
-                         s.jogs.emplace_back(m.joint_or_axis, m.jjogmode);
+                         s.jogs.emplace(m.joint_or_axis, m.jjogmode);
                          return give(v, m);
                      }});
     table.push_back({"JOG_INCR", Level::on, true, 0, 3, "joint|axis speed increment", nullptr, [](S s, V v, A a, R) {
@@ -580,9 +575,7 @@ void machine_subcommands(Table &table) {
     table.push_back({"JOG_STOP", Level::on, true, 0, 1, "joint|axis", nullptr, [](S s, V v, A a, R) {
                          EMC_JOG_STOP m;
                          if (!jog_target(s, v, a[0], &m.joint_or_axis, &m.jjogmode)) return Result::failed;
-                         s.jogs.erase(
-                             std::remove(s.jogs.begin(), s.jogs.end(), std::make_pair(m.joint_or_axis, m.jjogmode)),
-                             s.jogs.end());
+                         s.jogs.erase({m.joint_or_axis, m.jjogmode});
                          return give(v, m);
                      }});
     table.push_back({"JOINT_FAULT", Level::on, false, 0, 0, "[joint]",

@@ -1,0 +1,2 @@
+#!/bin/bash
+exec ../../task/lib/machine-test script.py
