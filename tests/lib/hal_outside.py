@@ -11,14 +11,15 @@ def halcmd(*words):
                           text=True).stdout.strip()
 
 
-def until(condition, what):
-    """Prints `what` once the condition holds."""
+def until(condition, what=""):
+    """Prints `what`, if anything, once the condition holds."""
     end = time.monotonic() + LIMIT_S
     while not condition():
         if time.monotonic() > end:
-            return print("never:", what)
+            return print("never:", what or "what was waited for")
         time.sleep(0.005)
-    print(what)
+    if what:
+        print(what)
 
 
 def pins(pattern):

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
  * usb_pendant.c - a pendant for tests in place of libusb (LD_PRELOAD). In the folder PENDANT: the file `present` has
- * its USB product in hexadecimal and the bytes of a report, it is there while the file is; reports come from the pipe
- * `in` (one that begins with FF: it is lost); blocks for the display are added to the file `out`.
+ * its USB numbers (vendor:product) and the bytes of a report, it is there while the file is; reports come from the pipe
+ * `in` (one that begins with FC to FF: a transfer error); blocks for the display are added to the file `out`.
+ * PENDANT_PACE: the program's time passes so many times as fast.
  */
+#define _GNU_SOURCE
 #include <fcntl.h>
 #include <libusb.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 static int in = -1, report_bytes;
@@ -19,6 +23,30 @@ static const char *path(const char *name)
     static char text[4096];
     snprintf(text, sizeof text, "%s/%s", getenv("PENDANT"), name);
     return text;
+}
+
+static long pace(void)
+{
+    const char *text = getenv("PENDANT_PACE");
+    return text ? atol(text) : 1;
+}
+
+int clock_gettime(clockid_t id, struct timespec *t)
+{
+    int result = (int)syscall(SYS_clock_gettime, id, t);
+    if (id == CLOCK_MONOTONIC && pace() > 1) {
+        long long ns = (t->tv_sec * 1000000000LL + t->tv_nsec) * pace();
+        t->tv_sec = ns / 1000000000;
+        t->tv_nsec = ns % 1000000000;
+    }
+    return result;
+}
+
+int nanosleep(const struct timespec *t, struct timespec *rest)
+{
+    long long ns = (t->tv_sec * 1000000000LL + t->tv_nsec) / pace();
+    struct timespec shorter = {ns / 1000000000, ns % 1000000000};
+    return (int)syscall(SYS_nanosleep, &shorter, rest);
 }
 
 int libusb_init(libusb_context **context)
@@ -34,17 +62,17 @@ void libusb_exit(libusb_context *context)
 
 libusb_device_handle *libusb_open_device_with_vid_pid(libusb_context *context, uint16_t vendor, uint16_t product)
 {
-    unsigned present = 0;
+    unsigned maker = 0, present = 0;
     FILE *f = fopen(path("present"), "r");
     (void)context;
     if (!f) {
         return NULL;
     }
-    if (fscanf(f, "%x %d", &present, &report_bytes) != 2) {
-        present = 0;
+    if (fscanf(f, "%x:%x %d", &maker, &present, &report_bytes) != 3) {
+        maker = 0;
     }
     fclose(f);
-    if (vendor != 0x10CE || product != present) {
+    if (vendor != maker || product != present) {
         return NULL;
     }
     in = open(path("in"), O_RDWR);
@@ -97,8 +125,9 @@ int libusb_interrupt_transfer(libusb_device_handle *handle, unsigned char endpoi
     if (endpoint != 0x81 || length < report_bytes || poll(&wait, 1, (int)timeout) != 1) {
         return LIBUSB_ERROR_TIMEOUT;
     }
+    static const int ERRORS[] = {LIBUSB_ERROR_OVERFLOW, LIBUSB_ERROR_IO, LIBUSB_ERROR_PIPE, LIBUSB_ERROR_NO_DEVICE};
     *done = (int)read(in, data, (size_t)report_bytes);
-    return *done == report_bytes && data[0] != 0xFF ? 0 : LIBUSB_ERROR_NO_DEVICE;
+    return *done != report_bytes ? LIBUSB_ERROR_NO_DEVICE : data[0] < 0xFC ? 0 : ERRORS[data[0] - 0xFC];
 }
 
 int libusb_control_transfer(libusb_device_handle *handle, uint8_t type, uint8_t request, uint16_t value,

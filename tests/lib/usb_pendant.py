@@ -26,13 +26,13 @@ class Pendant:
         self.pipe = os.open(self.folder / "in", os.O_RDWR)
         self.environment = dict(os.environ, LD_PRELOAD=str(library))
 
-    def appear(self):
-        (self.folder / "present").write_text(f"{self.product:x} {self.size}")
+    def appear(self, numbers=None):
+        (self.folder / "present").write_text(f"{numbers or f'10ce:{self.product:x}'} {self.size}")
 
-    def vanish(self):
-        """Unplugged, while the program waits for a report."""
+    def vanish(self, error=0xFF):
+        """Unplugged, while the program waits for a report: a transfer fails (FC to FF: of several ways)."""
         (self.folder / "present").unlink()
-        self.send(bytes([0xFF]) * self.size)
+        self.send(bytes([error]) * self.size)
 
     def send(self, report):
         os.write(self.pipe, report)

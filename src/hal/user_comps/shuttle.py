@@ -4,7 +4,8 @@
 
 shuttle [DEVICE ...]
 
-Devices are /dev/hidrawN, all of them if none is named; others than these models are passed over.
+Devices are /dev/hidrawN, all of them if none is named; others than these models are passed over. One that is unplugged
+is at rest, and looked for until it is there again.
 """
 
 import errno
@@ -28,6 +29,7 @@ HIDIOCGRAWINFO = 0x80084803     # struct hidraw_devinfo: bus, vendor, product
 MODELS = {(0x0b33, 0x0020): (5, 0x0010), (0x05f3, 0x0240): (13, 0x0001), (0x0b33, 0x0030): (15, 0x0001)}
 REPORT_BYTES = 5
 WHEEL_MOST = 7.0
+SEARCH_MS = 1000                # for lost devices
 
 
 def identity(fd):
@@ -41,9 +43,9 @@ def identity(fd):
 class Device:
     """One device and its pins."""
 
-    def __init__(self, component, number, fd, model):
-        self.component, self.fd, self.prefix = component, fd, f"{number}."
-        self.buttons, self.first = model
+    def __init__(self, component, number, path, fd, model):
+        self.component, self.path, self.fd, self.prefix = component, path, fd, f"{number}."
+        self.model = self.buttons, self.first = model
         self.dial = None        # of the last report
         for b in range(self.buttons):
             component.newpin(f"{number}.button-{b}", hal.HAL_BIT, hal.HAL_OUT)
@@ -68,41 +70,68 @@ class Device:
             put(f"button-{b}-not", not pressed & self.first << b)
 
 
-def found(paths):
-    """(descriptor, model) of each Shuttle among the devices."""
+    def lose(self, why):
+        """Nothing is pressed and the spring wheel is let go; the counts stay."""
+        print(f"{NAME}: {self.path} is lost: {why}", file=sys.stderr)
+        os.close(self.fd)
+        self.fd = self.dial = None
+        self.take(bytes(REPORT_BYTES))
+        self.dial = None        # where the dial will be is not known
+
+    def back(self, path, fd):
+        print(f"{NAME}: {path} is back", file=sys.stderr)
+        self.path, self.fd = path, fd
+
+
+def found(paths, used=(), quiet=False):
+    """(path, descriptor, model) of each Shuttle among the devices, but for those used."""
     for path in paths or sorted(glob.glob("/dev/hidraw*")):
+        if path in used:
+            continue
         try:
             fd = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
         except OSError as e:
-            if paths or e.errno == errno.EACCES:
+            if not quiet and (paths or e.errno == errno.EACCES):
                 print(f"{NAME}: {path}: {e.strerror} (its group, or a udev rule, gives access)", file=sys.stderr)
             continue
         if model := MODELS.get(identity(fd)):
-            yield fd, model
+            yield path, fd, model
         else:
             os.close(fd)
 
 
-def serve(devices):
-    """Takes reports until a device is gone. Returns the exit status."""
-    ready = select.poll()
-    by_fd = {d.fd: d for d in devices}
-    for fd in by_fd:
-        ready.register(fd, select.POLLIN)
+def find_lost(devices, paths):
+    """Gives the lost ones the devices of their models that are there."""
+    for path, fd, model in found(paths, {d.path for d in devices if d.fd is not None}, quiet=True):
+        lost = [d for d in devices if d.fd is None and d.model == model]
+        if lost:
+            min(lost, key=lambda d: d.path != path).back(path, fd)
+        else:
+            os.close(fd)
+
+
+def serve(devices, paths):
+    """Takes reports for ever."""
     while True:
-        for fd, _ in ready.poll():
+        by_fd = {d.fd: d for d in devices if d.fd is not None}
+        ready = select.poll()
+        for fd in by_fd:
+            ready.register(fd, select.POLLIN)
+        all_there = len(by_fd) == len(devices)
+        for fd, _ in ready.poll(None if all_there else SEARCH_MS):
             try:
                 report = os.read(fd, REPORT_BYTES)
             except BlockingIOError:
                 continue
             except OSError as e:
-                print(f"{NAME}: the device is gone: {e.strerror}", file=sys.stderr)
-                return 1
+                by_fd[fd].lose(e.strerror)
+                continue
             if not report:
-                print(f"{NAME}: the device is gone", file=sys.stderr)
-                return 1
-            if len(report) == REPORT_BYTES:
+                by_fd[fd].lose("unplugged")
+            elif len(report) == REPORT_BYTES:
                 by_fd[fd].take(report)
+        if not all_there:
+            find_lost(devices, paths)
 
 
 def main():
@@ -113,7 +142,7 @@ def main():
     component = hal.component(NAME)
     devices = [Device(component, n, *each) for n, each in enumerate(opened)]
     component.ready()
-    return serve(devices)
+    serve(devices, sys.argv[1:])
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ namespace xhc {
 
 namespace {
 
-constexpr uint16_t VENDOR = 0x10CE;
 constexpr unsigned SEND_MS = 100;
 constexpr uint8_t DEFAULT_ENDPOINT = 0x81;
 constexpr uint8_t DISPLAY_REPORT = 6;
@@ -26,7 +25,7 @@ Usb::~Usb() {
 
 bool Usb::open() {
     if (!context_ && libusb_init(&context_) != 0) return false;
-    handle_ = libusb_open_device_with_vid_pid(context_, VENDOR, product_);
+    handle_ = libusb_open_device_with_vid_pid(context_, vendor_, product_);
     if (!handle_) return false;
     libusb_set_auto_detach_kernel_driver(handle_, 1);
     int result = libusb_claim_interface(handle_, 0);

@@ -16,11 +16,14 @@ inline int32_t counted(int32_t counts, int steps) {
     return static_cast<int32_t>(static_cast<uint32_t>(counts) + static_cast<uint32_t>(steps));
 }
 
+constexpr uint16_t XHC_VENDOR = 0x10CE;
+
 /// The receiver of a pendant, while it is open.
 class Usb {
 public:
     /// program: begins the messages.
-    Usb(const char *program, uint16_t product) : program_(program), product_(product) {}
+    Usb(const char *program, uint16_t product, uint16_t vendor = XHC_VENDOR)
+        : program_(program), product_(product), vendor_(vendor) {}
     Usb(const Usb &) = delete;
     Usb &operator=(const Usb &) = delete;
     ~Usb();
@@ -43,7 +46,7 @@ private:
     uint8_t endpoint();
 
     const char *program_;
-    uint16_t product_;
+    uint16_t product_, vendor_;
     libusb_context *context_ = nullptr;
     libusb_device_handle *handle_ = nullptr;
     uint8_t endpoint_ = 0;

@@ -17,6 +17,7 @@ shuttle = module_from_spec(spec)
 spec.loader.exec_module(shuttle)
 models = {"xpress": (0x0b33, 0x0020), "pro": (0x0b33, 0x0030), "mouse": (0x046d, 0xc077)}
 shuttle.identity = lambda fd: models[os.path.basename(os.readlink(f"/proc/self/fd/{fd}"))]
+shuttle.SEARCH_MS = 5
 sys.argv = ["shuttle", *sys.argv[2:]]
 sys.exit(shuttle.main())
 """
@@ -55,7 +56,35 @@ with tempfile.TemporaryDirectory() as folder:
     report(2, 3, 0, 0x4001)
     until(lambda: get("1.button-14") == "TRUE" and get("1.button-0") == "TRUE", "fifteen buttons of the other one")
     os.close(writers[pipes[2]])
-    print("unplugged:", program.wait(), program.stderr.read().strip())
+    until(lambda: get("1.button-14") == "FALSE" and get("1.button-0-not") == "TRUE", "unplugged, at rest")
+    print("FP-156: unplugged a hundred times, with the wheel turned and a button down, sometimes both devices")
+    rest = None
+    for n in range(100):
+        report(1, -5, n, 0x0100)
+        until(lambda: get("0.button-4") == "TRUE")
+        counts = get("0.counts")
+        os.unlink(pipes[1])
+        os.close(writers[pipes[1]])
+        until(lambda: get("0.button-4-not") == "TRUE")
+        before, rest = rest, halcmd("show", "pin", "shuttle.0.*")
+        if n == 0:
+            print([get("0." + name) for name in ("spring-wheel-s32", "spring-wheel-f", "button-4")])
+        elif rest.replace(f" {counts} ", " ") != before.replace(f" {last} ", " "):
+            print("not at rest", before, rest)
+        last = counts
+        for which in (1, 2) if n == 50 else (1,):
+            if which == 1:
+                os.mkfifo(pipes[1])
+            writers[pipes[which]] = os.open(pipes[which], os.O_RDWR)
+        report(1, 0, 100 + n, 0)  # the dial begins anew
+        until(lambda: get("0.counts") == counts)
+    report(2, 0, 0, 1)
+    until(lambda: get("1.button-0") == "TRUE", "the other one is back, too")
+    program.terminate()
+    program.wait()
+    said = program.stderr.read().replace(folder, "").splitlines()
+    print(said[:2], sum(line == "shuttle: /xpress is lost: unplugged" for line in said),
+          sum(line == "shuttle: /xpress is back" for line in said))
     for words, what in (([], "none named"), ([f"{folder}/nothing"], "one that is not there"),
                         ([pipes[0]], "another device")):
         done = subprocess.run(["shuttle", *words], capture_output=True, text=True)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""xhc-hb04 with a pendant in place of libusb: buttons, rotary, wheel, steps, display, a pendant that goes and comes."""
+"""xhc-hb04 with a pendant in place of libusb: buttons, rotary, wheel, steps, display, a pendant that goes and comes
+(FP-156: a hundred times), one with other codes."""
 import struct
 from pathlib import Path
 
@@ -85,6 +86,58 @@ print(on("button-start-pause", "jog.enable-x", "jog.plus-x"), get("jog.velocity"
 pendant.appear()
 until(lambda: on("connected"), "found again")
 end(program)
+print("== FP-156: a hundred times gone by a transfer error of each kind, with a button down and the wheel turning")
+program = start("-H", "-I", str(layouts / "xhc-hb04-layout2.cfg"), PENDANT_PACE="200")
+until(ready)
+setp("jog.max-velocity", 100)
+for n in range(100):
+    until(lambda: on("connected"))
+    before = get("jog.counts")
+    report(0x02, 0x11, 3)
+    until(lambda: get("jog.counts") != before and on("button-start-pause", "jog.enable-x") != [])
+    pendant.vanish(0xFC + n % 4)
+    until(lambda: not on("connected"))
+    if on("button-start-pause", "jog.enable-x", "jog.enable-off", "jog.plus-x") or get("jog.velocity") != "0":
+        print("not at rest")
+    if int(get("jog.counts")) != int(before) + 3:
+        print("the counts moved")
+    pendant.appear()
+until(lambda: on("connected"), "found again")
+print("radio loss: no report comes any more")
+report(0x02, 0x11, 3)
+until(lambda: get("jog.counts") == "303")
+until(lambda: get("jog.velocity") == "0" and not on("jog.plus-x", "jog.minus-x"), "nothing moves")
+program.terminate()
+said = program.communicate()[0].splitlines()
+print(program.returncode, said.count("xhc-hb04: the pendant is lost"))
+print("== FP-156: a clone with other numbers and codes")
+layout = folder / "clone.cfg"
+pendant.appear("10cf:eb71")
+layout.write_text("[XHC-HB04]\nBUTTON = 02:button-start-pause\n")
+program = start("-H", "-I", str(layout))
+until(ready)
+print("with the usual numbers:", on("connected"))
+end(program)
+layout.write_text("[XHC-HB04]\nDEVICE = 10cf:eb71\nBUTTON = 02:button-start-pause\n")
+program = start("-H", "-I", str(layout))
+until(lambda: ready() and on("connected"), "found by its numbers")
+report(0x1C, 0x21, 1)
+report(0x02, 0x21)
+until(lambda: on("button-start-pause"), "codes that are known act")
+print(on("jog.enable-x", "jog.enable-y"))
+end(program)
+layout.write_text("[XHC-HB04]\nDEVICE = 10cf:eb71\nBUTTON = 02:button-start-pause\nBUTTON = 1C:button-macro-1\n"
+                  "ROTARY = 21:x\nROTARY = 22:feed-override\n")
+program = start("-H", "-I", str(layout))
+until(lambda: ready() and on("connected"))
+report(0x1C, 0x21, 1)
+until(lambda: on("button-macro-1") and on("jog.enable-x"), "learned")
+report(0, 0x22)
+until(lambda: on("jog.enable-feed-override"), "learned, too")
+report(0, 0x12)
+until(lambda: on("jog.enable-y"), "the usual codes stay")
+end(program)
+pendant.appear()
 print("== one that must be there")
 program = start("-x", "-H")
 until(lambda: ready() and on("connected", "require_pendant") == ["connected", "require_pendant"], "ready with it")
@@ -98,8 +151,11 @@ program = start()
 print(program.stdout.readline().strip(), program.stdout.readline().strip())
 end(program)
 Path(folder / "bad.cfg").write_text("[XHC-HB04]\nBUTTON = zz:name\n")
+Path(folder / "device.cfg").write_text("[XHC-HB04]\nBUTTON = 01:a\nDEVICE = pendant\n")
+Path(folder / "rotary.cfg").write_text("[XHC-HB04]\nBUTTON = 01:a\nROTARY = 21:b\n")
 Path(folder / "none.cfg").write_text("[OTHER]\n")
 for options in (["-s", "6"], ["-q"], ["-I", str(folder / "bad.cfg")], ["-I", str(folder / "none.cfg")],
+                ["-I", str(folder / "device.cfg")], ["-I", str(folder / "rotary.cfg")],
                 ["-I", "/nothing.cfg"]):
     program = start(*options)
     print(program.wait(20), program.stdout.read().splitlines()[:1][0].replace(str(folder), ""))

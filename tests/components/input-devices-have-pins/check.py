@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""hal_input with a device made up here: pins and their first values, events, choosing a device."""
+"""hal_input with a device made up here: pins and their first values, events, choosing a device, losing it (FP-156)."""
 
 from __future__ import annotations
 
+import contextlib
+import errno
+import io
 import sys
 from pathlib import Path
 
@@ -40,7 +43,9 @@ class Pad:
         self.id, self.numbers = "Bus=0003 Vendor=046d Product=c21%s Version=0110" % path, f"046d:c21{path}"
         self.queue: list[tuple[int, int, int]] = []
         self.leds: list[tuple[int, bool]] = []
-        self.grabbed = False
+        self.grabbed = self.closed = False
+        self.down: set[int] = set()
+        self.gone = 0
 
     def codes(self, kind: str) -> list[int]:
         return {"K": [0x130, 0x120, 30, 760], "R": [8], "A": [0], "L": [1]}[kind]
@@ -49,8 +54,13 @@ class Pad:
         return 128, 0, 255, 2, 15
 
     def events(self) -> list[tuple[int, int, int]]:
+        if self.gone:
+            raise OSError(self.gone, "No such device")
         found, self.queue = self.queue, []
         return found
+
+    def pressed(self) -> set[int]:
+        return self.down
 
     def set_led(self, code: int, on: bool) -> None:
         self.leds.append((code, on))
@@ -59,7 +69,7 @@ class Pad:
         self.grabbed = True
 
     def close(self) -> None:
-        pass
+        self.closed = True
 
 
 def pins() -> None:
@@ -122,8 +132,59 @@ def choice() -> None:
     check("letters", refusal(hal_input.arguments, ["-X", "Pad"]), "hal_input: -X: letters out of KRAL are expected")
 
 
+def losses() -> None:
+    """A hundred times: unplugged with a key down and a stick held, and back, sometimes at another place."""
+    hal_input.SEARCH_S = 0.0
+    present: list[Pad] = [Pad("a")]
+    pad, p = present[0], Pins()
+    taken: set[str] = set()
+    one = hal_input.Input(p, 0, pad, "KRAL", exclusive=True, taken=taken,
+                          again=lambda lost, taken: present[0] if present else None)
+    said = io.StringIO()
+    with contextlib.redirect_stderr(said):
+        for n in range(100):
+            pad.queue = [(1, 30, 1), (3, 0, 255), (2, 8, 1)]
+            one.step()
+            check(f"moving {n}", (p["0.key-a"], p["0.abs-x-is-pos"], p["0.connected"]), (True, True, True))
+            pad.gone = [errno.ENODEV, errno.EIO, errno.EPROTO][n % 3]
+            present.clear()
+            for _ in range(3):
+                one.step()
+                check(f"at rest {n}", (p["0.key-a"], p["0.key-a-not"], p["0.abs-x-is-pos"], p["0.abs-x-position"],
+                                       p["0.rel-wheel-counts"], p["0.connected"], taken, pad.closed),
+                      (False, True, False, 0.0, n + 1, False, set(), True))
+            pad = Pad("a")
+            present.append(pad)
+            one.step()
+            check(f"back {n}", (p["0.key-a"], p["0.abs-x-is-pos"], p["0.connected"], taken, pad.grabbed, pad.leds),
+                  (False, False, True, {"a"}, True, [(1, False)]))
+        pad.queue = [(1, 30, 1), (1, 0x130, 1)]
+        one.step()
+        pad.down, pad.queue = {0x130}, [(0, 3, 0)]  # the kernel lost events: a release among them
+        one.step()
+        check("after lost events", (p["0.key-a"], p["0.btn-a"]), (False, True))
+        pad.queue = [(1, 999, 1), (1, 999, 0), (4, 4, 5)]
+        one.step()
+    lines = said.getvalue().splitlines()
+    check("said", (lines[:2], lines[200:]), (["hal_input: Pad of A (a) is lost: No such device",
+                                              "hal_input: Pad of A (a) is back"],
+                                             ["hal_input: Pad of A: Unexpected event 1 999"]))
+    lost = Pad("a")
+    check("another one of its kind", hal_input.find_again(lost, {"a"}, Pad, ["a", "b", "c"]), None)
+    check("itself", hal_input.find_again(lost, set(), Pad, ["locked", "b", "c", "a"]).path, "a")
+
+    class Moved(Pad):
+        def __init__(self, path: str):
+            super().__init__("a")
+            self.path, self.phys = path, f"usb-{path}/input0"
+
+    check("at another place", hal_input.find_again(lost, set(), Moved, ["7", "8"]).path, "7")
+    check("at its own place first", hal_input.find_again(lost, set(), Moved, ["7", "1"]).path, "1")
+
+
 if __name__ == "__main__":
     pins()
     choice()
+    losses()
     print("\n".join(mistakes) or "all pins right")
     sys.exit(bool(mistakes))

@@ -6,8 +6,11 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "xhc_usb.hh"
 
 namespace xhc {
 
@@ -19,10 +22,10 @@ constexpr int NO_AXIS = -1;
 /// Axis (0 to 3) that the rotary selects, or NO_AXIS.
 int axis_of(Rotary r);
 
-/// One report of the pendant.
+/// One report of the pendant: codes as they came.
 struct Report {
     int button = 0; ///< code, 0 none
-    Rotary rotary = Rotary::off;
+    int rotary = 0; ///< code: selection()
     int wheel = 0;  ///< steps since the last report
     bool sleeping = false;
 };
@@ -36,8 +39,18 @@ struct Button {
     std::string name;
 };
 
-/// Buttons of a file; false, with a message on stderr.
-bool read_layout(const std::string &path, std::vector<Button> &buttons);
+/// What a file says of a pendant: its buttons and, of one with other numbers or codes than the XHC-HB04, those.
+struct Layout {
+    uint16_t vendor = XHC_VENDOR, product = 0xEB70;
+    std::vector<Button> buttons;
+    std::map<int, Rotary> rotary; ///< code to what it selects; the usual codes need no entry
+};
+
+/// False, with a message on stderr.
+bool read_layout(const std::string &path, Layout &layout);
+
+/// What the rotary's code selects; false for a code that is not known.
+bool selection(const Layout &layout, int code, Rotary &r);
 
 /// Step sizes in thousandths of a unit. Empty for a number that is none.
 std::vector<int> step_sequence(int number);

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 
 #include "hal.h"
 #include "hardware_program.hh"
@@ -20,7 +21,6 @@ namespace xhc {
 namespace {
 
 constexpr const char *NAME = "xhc-hb04";
-constexpr uint16_t PRODUCT = 0xEB70;
 constexpr double MAX_WAIT_SECS = 10, SEARCH_S = 1, AFTER_LOSS_S = 5, STILL_S = 0.25;
 
 using Clock = std::chrono::steady_clock;
@@ -50,8 +50,9 @@ struct Options {
 
 class Program {
 public:
-    Program(const Options &options, std::vector<Button> buttons)
-        : options_(options), buttons_(std::move(buttons)), steps_(step_sequence(options.sequence)) {}
+    Program(const Options &options, Layout layout)
+        : options_(options), layout_(std::move(layout)), buttons_(layout_.buttons),
+          steps_(step_sequence(options.sequence)), usb_(NAME, layout_.product, layout_.vendor) {}
 
     int run() {
         if (options_.hal && !make_pins()) return 1;
@@ -108,7 +109,6 @@ private:
             if (got == Usb::Got::lost) return;
             const bool reported = got == Usb::Got::report && parse(data, size, report);
             if (reported) {
-                last_ = report;
                 if (options_.hal) take(report);
                 else print(report);
             }
@@ -129,7 +129,13 @@ private:
     void take(const Report &r) {
         Pins &p = *pins_;
         *p.sleeping = r.sleeping;
-        int selected = axis_of(r.rotary);
+        if (!selection(layout_, r.rotary, selected_)) {
+            selected_ = Rotary::off;
+            if (unknown_rotary_.insert(r.rotary).second) tell_unknown("the rotary", "ROTARY", r.rotary);
+        }
+        if (r.button && !known(r.button) && unknown_buttons_.insert(r.button).second)
+            tell_unknown("a button", "BUTTON", r.button);
+        int selected = axis_of(selected_);
         for (size_t n = 0; n < buttons_.size(); n++) *p.button[n] = r.button == buttons_[n].code;
         for (int n = 0; n < 4; n++) {
             AxisPins &a = p.axis[n];
@@ -139,9 +145,21 @@ private:
             if (a.goto_zero) *a.goto_zero = n == selected && pressed(r, "button-goto-zero");
             if (a.half) *a.half = n == selected && pressed(r, "button-half");
         }
-        *p.enable_off = r.rotary == Rotary::off;
-        *p.enable_feed = r.rotary == Rotary::feed;
-        *p.enable_spindle = r.rotary == Rotary::spindle;
+        *p.enable_off = selected_ == Rotary::off;
+        *p.enable_feed = selected_ == Rotary::feed;
+        *p.enable_spindle = selected_ == Rotary::spindle;
+    }
+
+    static void tell_unknown(const char *what, const char *key, int code) {
+        fprintf(stderr,
+                "xhc-hb04: %s has the unknown code %02X: a line %s = %02X:NAME of the layout gives it a meaning\n",
+                what, static_cast<unsigned>(code), key, static_cast<unsigned>(code));
+    }
+
+    bool known(int code) const {
+        for (const Button &b : buttons_)
+            if (b.code == code) return true;
+        return buttons_.empty(); // without a layout none is expected
     }
 
     bool pressed(const Report &r, const char *name) const {
@@ -166,7 +184,7 @@ private:
             *p.counts_neg = static_cast<int32_t>(-static_cast<uint32_t>(counts_));
             *p.increment = std::fabs(delta * *p.scale);
             *p.velocity = 0.95 * *p.velocity + 0.05 * *p.max_velocity * 60 * *p.scale;
-            int selected = axis_of(last_.rotary);
+            int selected = axis_of(selected_);
             if (selected != NO_AXIS) {
                 *p.axis[selected].plus = delta > 0;
                 *p.axis[selected].minus = delta < 0;
@@ -197,7 +215,7 @@ private:
         const Pins &p = *pins_;
         Shown s;
         for (size_t n = 0; n < 3; n++) {
-            size_t from = n == 0 && last_.rotary == Rotary::a ? 3 : n;
+            size_t from = n == 0 && selected_ == Rotary::a ? 3 : n;
             s.relative[n] = *p.axis[from].pos_relative;
             s.absolute[n] = *p.axis[from].pos_absolute;
         }
@@ -212,9 +230,8 @@ private:
 
     /// Without a pendant nothing is pressed, selected or moving.
     void release() {
-        last_ = Report{};
         if (!options_.hal) return;
-        take(last_);
+        take(Report{});
         *pins_->enable_off = false;
         *pins_->sleeping = false;
         *pins_->connected = false;
@@ -286,14 +303,16 @@ private:
     }
 
     const Options &options_;
-    std::vector<Button> buttons_;
+    const Layout layout_;
+    const std::vector<Button> &buttons_;
+    std::set<int> unknown_buttons_, unknown_rotary_; // codes that were told
+    Rotary selected_ = Rotary::off;
     std::vector<int> steps_;
     size_t step_ = 0;
     bool was_up_ = false, was_down_ = false;
     int32_t counts_ = 0;
     Clock::time_point turned_{};
-    Report last_;
-    Usb usb_{NAME, PRODUCT};
+    Usb usb_;
     int component_ = -1;
     Pins *pins_ = nullptr;
 };
@@ -325,10 +344,10 @@ int run_program(int argc, char **argv) {
         usage(stderr);
         return 1;
     }
-    std::vector<Button> buttons;
-    if (!options.layout.empty() && !read_layout(options.layout, buttons)) return 1;
+    Layout layout;
+    if (!options.layout.empty() && !read_layout(options.layout, layout)) return 1;
     begin_hardware_program(NAME);
-    return Program(options, std::move(buttons)).run();
+    return Program(options, std::move(layout)).run();
 }
 
 } // namespace xhc
