@@ -51,8 +51,9 @@ class Picker:
                                    for p in (tree.configs / f"sim/{n}.ini" for n in ("axis/axis", "mill/mill"))
                                    if p.exists()), None))
         self.list.bind("<<TreeviewSelect>>", lambda event: self.show())
-        for key in ("<Return>", "<KP_Enter>", "<Double-1>"):
+        for key in ("<Return>", "<KP_Enter>"):
             self.list.bind(key, self.accept)
+        self.list.bind("<Double-1>", self.clicked_twice)
         for key in ("<Return>", "<KP_Enter>"):
             root.bind(key, self.accept)
         root.bind("<Escape>", lambda event: root.destroy())
@@ -132,6 +133,10 @@ class Picker:
         else:
             self.picture.pack_forget()
         self.ok.configure(state="normal" if path and configs.usable(path) else "disabled")
+
+    def clicked_twice(self, event):
+        """Counts on the selected line only: a folder's arrow that is clicked quickly does not select."""
+        return self.accept() if self.list.identify_row(event.y) in self.list.selection() else None
 
     def accept(self, event=None):
         path = self.selected()
