@@ -3,6 +3,8 @@
 
 import math
 
+from kerf.position import relative
+
 from .settings import LETTERS, MM_PER_INCH
 
 SYSTEMS = ("G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
@@ -35,19 +37,10 @@ class Readout:
         scale = (1.0 if metric else 1 / MM_PER_INCH) / self.s.units_per_mm
         return [v if c in "ABC" else v * scale for c, v in zip(LETTERS, values)]
 
-    @staticmethod
-    def relative(stat, position):
-        """Position without tool offset, work offset, rotation and G92."""
-        p = [position[i] - stat.tool_offset[i] - stat.g5x_offset[i] for i in range(9)]
-        if stat.rotation_xy:
-            t = math.radians(-stat.rotation_xy)
-            p[0], p[1] = (p[0] * math.cos(t) - p[1] * math.sin(t), p[0] * math.sin(t) + p[1] * math.cos(t))
-        return [p[i] - stat.g92_offset[i] for i in range(9)]
-
     def position(self, stat, view):
         """Nine values as they are shown: view has relative, commanded, metric."""
         position = stat.position if view.commanded else stat.actual_position
-        p = self.relative(stat, position) if view.relative else list(position)
+        p = relative(stat, position) if view.relative else list(position)
         for c in self.wrapped:
             i = LETTERS.index(c)
             p[i] = math.fmod(p[i], 360.0)

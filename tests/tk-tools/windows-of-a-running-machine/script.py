@@ -6,7 +6,7 @@ import subprocess
 import hal
 import linuxcnc
 from kerf import tkstyle
-from kerf.tktools import debuglevel, hal_manualtoolchange, linuxcnctop, teach_in, tooledit
+from kerf.tktools import debuglevel, hal_manualtoolchange, linuxcnctop, ngcgui, teach_in, tooledit
 from kerf.tktools.tooltable import Table
 from mill import *
 from tk_hand import Hand
@@ -41,6 +41,14 @@ print("red 2 s later:", red())
 hand.click(top.button)
 print("copied:", "task_state\ton" in root.clipboard_get(), len(root.clipboard_get().splitlines()) == len(top.values))
 top.close()
+
+print("== ngcgui")
+mdi("G10 L2 P1 X1 Y0 R90")
+mdi("G53 G0 X5 Y2")
+print("in a turned system:", *(round(ngcgui.machine_position()(letter), 3) for letter in "xy"),
+      ngcgui.machine_position()("a"))
+mdi("G10 L2 P1 X0 Y0 R0")
+mdi("G0 Y0")
 
 print("== debuglevel")
 c.debug(0x100000)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A machine as a small screen sees it: status, commands, names of axes and joints, positions, jogging."""
 
-import math
 import re
 from pathlib import Path
 
 import linuxcnc
 
 from .. import clock
+from .. import position as offsets
 from ..inivalues import LETTERS, trivkins_letters
 
 INCH_MM = 25.4
@@ -110,11 +110,7 @@ class Machine:
             return value if self.is_angular(row, True) else value * self.factor(unit)
         values = list(s.actual_position if actual else s.position)
         if relative:
-            values = [v - g5x - tool for v, g5x, tool in zip(values, s.g5x_offset, s.tool_offset)]
-            angle = math.radians(-s.rotation_xy)
-            x, y = values[0], values[1]
-            values[0], values[1] = x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
-            values = [v - g92 for v, g92 in zip(values, s.g92_offset)]
+            values = offsets.relative(s, values)
         value = values[LETTERS.index(self.letters[row])]
         return value if self.is_angular(row, False) else value * self.factor(unit)
 

@@ -11,7 +11,7 @@ import tkinter as tk
 from pathlib import Path
 from tkinter import filedialog, messagebox, ttk
 
-from .. import tkstyle
+from .. import position, tkstyle
 from ..language import _, N_
 from .ngcfiles import NotUsable, Program, find_file, folders_of, form_of, is_value, start_folder
 from .widgets import Scrolled
@@ -338,16 +338,12 @@ def machine_position():
     """The function that tells a coordinate of the running machine, or None."""
     def coordinate(letter):
         import linuxcnc
-        from .machine import LETTERS
         try:
             stat = linuxcnc.stat()
             stat.poll()
         except linuxcnc.error:
             return None
-        i = LETTERS.index(letter.upper())
-        if not stat.axis_mask & (1 << i):
-            return None
-        return stat.actual_position[i] - stat.g5x_offset[i] - stat.g92_offset[i] - stat.tool_offset[i]
+        return position.coordinate(stat, letter)
     return coordinate
 
 

@@ -11,6 +11,7 @@ from tkinter import messagebox, ttk
 
 from .. import tkstyle
 from ..language import _, N_
+from ..position import coordinate
 from .ngcgui import DEFAULT_OUT, Page, options, take_ini
 from .ngcfiles import find_file
 from . import ngcgui_text
@@ -103,11 +104,7 @@ class EmbeddedPage(Page):
         self.dress(row)
 
     def position(self, letter):
-        """What AXIS shows of an axis."""
-        s, i = self.tabs.app.stat, "xyzabcuvw".index(letter)
-        if not s.axis_mask & (1 << i):
-            return None
-        return s.actual_position[i] - s.g5x_offset[i] - s.g92_offset[i] - s.tool_offset[i]
+        return coordinate(self.tabs.app.stat, letter)
 
     def finalize(self):
         """The features of all pages, in the order of the tabs, become one program."""
