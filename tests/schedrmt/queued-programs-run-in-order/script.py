@@ -61,7 +61,9 @@ print("== the queue")
 for name, x in (("one", 1), ("two", 2), ("three", 3)):
     Path(f"{name}.ngc").write_text(f"G21 G90 G1 F6000 X{x}\nG0 Y{x}\n(MSG,{name} ran)\nM2\n")
 a.say("SET PGMADD 5 0 0 0 0 1 two.ngc 100 100 1", "SET PGMADD 1 40 0 0 0 2 one.ngc 50 80 1",
-      "SET PGMADD 9 0 7 8 0 0 three.ngc 100 100 2", "SET PGMADD 1 2 3", "SET PGMADD 1 0 0 0 0 10 x 1 1 1")
+      "SET PGMADD 9 0 7 8 0 0 three.ngc 100 100 2", "SET PGMADD 1 2 3", "SET PGMADD 1 0 0 0 0 10 x 1 1 1",
+      "SET PGMADD 1 0 nan 0 0 0 x 1 1 1", "SET PGMADD 1 0 0 0 0 1 x nan 1 1", "SET PGMADD 1 0 0 0 0 1 x 1 inf 1",
+      "SET PGMADD 1 0 0 0 0 1 x -1 1 1")
 show = lambda *lines: [print("> " + line + ":", a.raw(line.encode() + b"\r")) for line in lines]
 show("GET PGMALL", "GET PGMBYID 40", "GET PGMBYINDEX 1", "GET PGMBYID 41", "GET PRIORITYBYID 40",
      "GET PRIORITYBYINDEX 2", "SET PRIORITYBYID 40 7", "GET PGMBYINDEX 0")
@@ -130,6 +132,22 @@ for name in ("bad", "long"):
     clock.wait_until(lambda: b"RUN" not in a.raw(b"GET QMODE\r"), 100, 0.5)
     print(name, a.raw(b"GET QMODE\r"), messages())
     a.say("SET QMODE STOP")
+print("== while a job is set up everybody is served, and it can be taken away")
+a.say("SET QMODE STOP")
+c.feedrate(1)
+mdi("G92.1")
+mdi("G54 G53 G0 X0 Y0")
+c.rapidrate(0.008)
+for take_away in "SET QMODE STOP", "SET DELETEBYINDEX 0":
+    a.say("SET PGMADD 1 0 60 0 0 0 one.ngc 100 100 1", "SET QMODE RUN")
+    need(lambda s: s.current_vel > 0, "way to its place")
+    a.say("GET QMODE", take_away)
+    print("on the way:", poll().current_vel > 0, "has control:", s.control_pid == process.pid)
+    c.abort()
+    need(lambda s: s.control_pid == 0 and s.inpos, "end of control")
+    clock.wait_until(lambda: b"STOP" in a.raw(b"GET QMODE\r"), 100, 0.1)
+    a.say("GET QSTATUS")
+c.rapidrate(1)
 print("== garbage and the end")
 g = Client()
 g.socket.sendall(bytes(range(256)) * 40 + b"\r")

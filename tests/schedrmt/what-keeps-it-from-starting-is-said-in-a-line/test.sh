@@ -3,6 +3,9 @@
 # No traceback: schedrmt without its INI file, and on a port that another program has.
 schedrmt -- -ini nothere.ini 2>&1
 echo "status $?"
+for option in "-p 99999" "-p 0" "-s -1"; do
+    schedrmt $option 2>&1 | tail -n 1
+done
 /usr/bin/python3 - <<'END'
 import os, socket, subprocess
 with socket.create_server(("127.0.0.1", 0)) as taken:
