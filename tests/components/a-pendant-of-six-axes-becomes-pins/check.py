@@ -164,7 +164,7 @@ print(shown())
 do(CONTINUOUS)
 do(FN, 6)
 sees("machine.is-on", 0)
-sees("axis.a.pos-feedback", "nan")
+sees("axis.a.pos-relative", "nan")
 loops()
 print(shown())
 sees("machine.is-on", 1)
@@ -210,14 +210,14 @@ do()
 large = [get("axis.x.jog-scale")]
 do(feed=0x1A)
 print("large steps:", large + [get("axis.x.jog-scale")])
-do(feed=0x1C)
-for clicks in (1, 1, -1, -1):
-    do(wheel=clicks)
-    print(true("whb.halui.*-override.*"), get("halui.spindle-override.scale"), get("halui.feed-override.scale"))
-do(feed=0x0D)
-for clicks in (1, 1, -2):
-    do(wheel=clicks)
-    print(true("whb.halui.*-override.*"), get("halui.feed-override.scale"))
+for rotary, override in ((0x1C, "spindle"), (0x0D, "feed")):
+    do(feed=rotary)
+    for clicks, direction in ((2, "increase"), (-1, "decrease")):
+        pin = f"halui.{override}-override.{direction}"
+        report(wheel=clicks)
+        until(lambda: on(pin), pin)
+        until(lambda: not on(pin), "lowered at rest")
+    print(get("halui.spindle-override.scale"), get("halui.feed-override.scale"))
 do(STEP)
 print(get("halui.feed-override.scale"))
 pendant.vanish()

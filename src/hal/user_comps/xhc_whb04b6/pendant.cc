@@ -22,21 +22,13 @@ int index_of(uint8_t key) {
     return NO_KEY;
 }
 
-/// Of two codes: Fn before another is its modifier, otherwise the second one counts.
+/// Of two codes: Fn is the modifier of the other, otherwise the second one counts.
 void take_keys(uint8_t first, uint8_t second, Report &report) {
-    if (first == KEY_NONE) std::swap(first, second);
-    if (first == KEY_FN && second != KEY_NONE) {
-        report.pressed.fn = true;
-        first = second;
-    } else if (second != KEY_NONE && second != KEY_FN) {
-        first = second;
-    }
-    if (first == KEY_NONE) return;
-    report.pressed.index = index_of(first);
-    if (report.pressed.index == NO_KEY) {
-        report.unknown_key = first;
-        report.pressed.fn = false;
-    }
+    if (second == KEY_NONE || (second == KEY_FN && first != KEY_NONE)) std::swap(first, second);
+    if (second == KEY_NONE) return;
+    report.pressed.index = index_of(second);
+    if (report.pressed.index == NO_KEY) report.unknown_key = second;
+    else report.pressed.fn = first == KEY_FN && second != KEY_FN;
 }
 
 int feed_of(uint8_t code) {

@@ -28,7 +28,11 @@ constexpr int MODE_POLLS = 60, PULSE_POLLS = 100;
 constexpr double KEY_SCALE = 0.05, WHEEL_SCALE = 0.01; ///< of overrides, for each step of a key or the wheel
 constexpr double OF_MAX_VELOCITY = 0.0001;             ///< jog scale for each percent while the wheel is continuous
 
+constexpr double REST_S = 0.25;                        ///< the wheel stands
+
 using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
 struct AxisPins {
     hal_s32_t *counts;
@@ -90,7 +94,7 @@ private:
         bool told = options_.silent;
         while (!ending) {
             if (!usb_.open()) {
-                if (!ready_ && std::chrono::duration<double>(Clock::now() - begin).count() > MAX_WAIT_S) {
+                if (!ready_ && since(begin) > MAX_WAIT_S) {
                     fprintf(stderr, "%s: no pendant (USB 10ce:%04x) within %g s\n", NAME, options_.product, MAX_WAIT_S);
                     return 1;
                 }
@@ -131,6 +135,7 @@ private:
             }
             if (!options_.hal) continue;
             set_jog();
+            if (since(nudged_at_) > REST_S) lower_nudged();
             const Image bytes = image(shown());
             if (options_.sent) print_bytes("sent", bytes.data(), bytes.size());
             if (!usb_.show(bytes.data(), bytes.size())) return;
@@ -152,7 +157,7 @@ private:
         press({});
         axis(NO_AXIS);
         if (!options_.hal) return;
-        for (Override *o : {&pins_->feed_override, &pins_->spindle_override}) *o->increase = *o->decrease = false;
+        lower_nudged();
     }
 
     static void print_bytes(const char *what, const uint8_t *bytes, size_t size) {
@@ -180,6 +185,7 @@ private:
             event("sleeps");
             drop_next_ = true;
             rest();
+            feed(NO_FEED);
             return;
         }
         tell_unknown("key", r.unknown_key);
@@ -246,9 +252,7 @@ private:
         switch (key) {
         case KEY_RESET: toggle(p.machine, down); break;
         case KEY_STOP: *p.stop = down; break;
-        case KEY_START_PAUSE:
-            if (down) start_or_pause();
-            break;
+        case KEY_START_PAUSE: return !down || start_or_pause();
         case KEY_FEED_PLUS: step(p.feed_override, p.feed_override.increase, down); break;
         case KEY_FEED_MINUS: step(p.feed_override, p.feed_override.decrease, down); break;
         case KEY_SPINDLE_PLUS: step(p.spindle_override, p.spindle_override.increase, down); break;
@@ -290,7 +294,8 @@ private:
         *what.off = down && is_on;
     }
 
-    static void step(Override &what, hal_bit_t *direction, bool down) {
+    void step(Override &what, hal_bit_t *direction, bool down) {
+        lower_nudged();
         if (down) *what.scale = KEY_SCALE;
         *direction = down;
     }
@@ -337,12 +342,13 @@ private:
         *pin = false;
     }
 
-    void start_or_pause() {
+    bool start_or_pause() {
         Pins &p = *pins_;
-        if (!request(p.automatic)) return;
+        if (!request(p.automatic)) return false;
         if (*p.is_paused) pulse(p.resume, "resume", [&p] { return !*p.is_paused; });
         else if (*p.is_running) pulse(p.pause, "pause", [&p] { return bool(*p.is_paused) || !*p.is_running; });
         else if (*p.is_idle) pulse(p.run, "run", [&p] { return !*p.is_idle; });
+        return true;
     }
 
     /// A program is not stopped by the wheel. A joint that is homed moves with its axis, unless others are not homed.
@@ -368,12 +374,19 @@ private:
         }
     }
 
-    /// One move of the wheel raises the pin, the next one lowers it.
-    static void nudge(Override &what, int clicks) {
+    /// One move of the wheel raises the pin, the next one, or a rest, lowers it.
+    void nudge(Override &what, int clicks) {
         hal_bit_t *now = clicks > 0 ? what.increase : what.decrease, *other = clicks > 0 ? what.decrease : what.increase;
         *what.scale = WHEEL_SCALE;
         *other = false;
         *now = !*now;
+        nudged_ = &what;
+        nudged_at_ = Clock::now();
+    }
+
+    void lower_nudged() {
+        if (nudged_) *nudged_->increase = *nudged_->decrease = false;
+        nudged_ = nullptr;
     }
 
     /// What a click of the wheel is worth. MPG and Lead move nothing.
@@ -510,10 +523,12 @@ private:
     bool ready_ = false;
     bool drop_next_ = false; ///< the report after the one with which the pendant went to sleep
     Pressed pressed_;
+    Override *nudged_ = nullptr; ///< by the wheel, at that time
+    Clock::time_point nudged_at_{};
     int axis_ = NO_AXIS, feed_ = NO_FEED;
     Wheel wheel_ = Wheel::mpg;
     int shown_group_ = 0;    ///< first of the three axes on the display
-    bool relative_ = false;  ///< the display's positions
+    bool relative_ = true;   ///< the display's positions
     bool reverse_ = false;   ///< direction of the spindle's next start
     unsigned refused_teleop_ = 0; ///< joints that were homed then, a bit each: asked again when others are
     std::set<std::pair<std::string, uint8_t>> unknown_;
