@@ -17,6 +17,11 @@ def run_tool(*words, text=None):
     return f"{done.returncode} {done.stdout}"
 
 
+print("mistakes:")
+for words in (["mdi", "X" * 255], ["mdi", b"G0 X1 (\xff)"], ["linuxcnclcd", "-ini", "nothere.ini"],
+              ["linuxcnctop", "-t", "-ini", "nothere.ini"], ["teach-in", "linuxcnc.nml", "/nowhere/out"]):
+    print(" ", run_tool(*words).strip().replace("\n", " / "))
+print("  typed:", run_tool("mdi", text="X" * 255 + "\n''\n").replace("MDI> ", "").split("\n")[0])
 print("mdi in estop:", run_tool("mdi", "G0", "X1"), messages())
 on()
 print("mdi:", run_tool("mdi", "G0", "X5", "Y-2"))
@@ -63,7 +68,13 @@ lcd.sendall(b"connect LCDproc 0.5.9 protocol 0.3 lcd wid 20 hgt 4 cellwid 5 cell
 for line in lines_until(b"line3 1 4"):
     print(line)
 clock.resume()
-mode(MODE_MDI)
+mdi("G10 L2 P1 X1 Y2 R90")
+mdi("G92 X5")
+clock.suspend()
+print("rotated and shifted:", any("{X     5.000 " in line for line in lines_until(b"X     5.000")))
+clock.resume()
+mdi("G92.1")
+mdi("G10 L2 P1 X0 Y0 R0")
 c.mdi("G4 P100000")
 need(lambda s: s.exec_state == EXEC_WAITING_FOR_DELAY, "dwell")
 clock.suspend()

@@ -17,7 +17,10 @@ def use_ini(arguments):
 
 def status(program, arguments=()):
     """The status channel, read once. Without a controller: says so, exit status 1."""
-    use_ini(list(arguments))
+    try:
+        use_ini(list(arguments))
+    except linuxcnc.error as error:
+        sys.exit(f"{program}: {error}")
     stat = linuxcnc.stat()
     try:
         stat.poll()

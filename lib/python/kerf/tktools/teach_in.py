@@ -52,7 +52,10 @@ class Window:
 def main(arguments):
     if arguments:
         linuxcnc.nmlfile = arguments[0]
-    out = open(arguments[1], "w") if len(arguments) > 1 else sys.stdout
+    try:
+        out = open(arguments[1], "w") if len(arguments) > 1 else sys.stdout
+    except OSError as error:
+        return f"teach-in: {arguments[1]}: {error.strerror}"
     stat = controller.status("teach-in")
     root = tkstyle.open_display("teach-in", "Teachin")
     Window(root, stat, out)
