@@ -31,5 +31,6 @@ show emc_program_codes {emc_mdi (MSG,hello there)} emc_operator_display emc_oper
 show emc_task_command emc_task_command_status {expr {[emc_task_command_number] > 10}} emc_io_command_status emc_motion_command_status
 show {emc_probe_move 1 2 -1} emc_probe_tripped emc_probe_value {emc_probed_pos X} emc_probe_clear
 set f [open t.ngc w]; puts $f "G21 G0 X1\nG0 X2\nG4 P0.2\nM2"; close $f
+show {emc_open [string repeat n 300]} {emc_load_tool_table [string repeat n 300]} {emc_joint_load_comp 0 [string repeat n 300] 0}
 show emc_program {emc_mode auto} {emc_open t.ngc} {file tail [emc_program]} emc_program_status emc_run emc_program_status {format %.3f [emc_abs_act_pos X]} {emc_set_wait received} emc_run emc_pause emc_program_status emc_resume {emc_wait done} emc_program_status emc_step {emc_set_timeout 0.2} {emc_wait done} emc_abort emc_program_line emc_task_plan_init
 show {emc_pendant /dev/null} {int 3.7} {int -3.7} {round 3.7} {emc_debug} {emc_update none} {emc_update} {emc_update auto} {emc_machine off} {emc_estop on} emc_estop

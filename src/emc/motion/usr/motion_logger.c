@@ -39,17 +39,21 @@ static void on_signal(int number)
     quit = 1;
 }
 
+static void open_log(void)
+{
+    log_file = log_name ? fopen(log_name, "w") : stdout;
+    if (log_file)
+        return;
+    fprintf(stderr, "motion-logger: cannot write %s: %s\n", log_name, strerror(errno));
+    exit(1);
+}
+
 static void say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 static void say(const char *fmt, ...)
 {
     va_list ap;
-    if (!log_file) {
-        log_file = log_name ? fopen(log_name, "w") : stdout;
-        if (!log_file) {
-            fprintf(stderr, "motion-logger: cannot write %s: %s\n", log_name, strerror(errno));
-            exit(1);
-        }
-    }
+    if (!log_file)
+        open_log();
     va_start(ap, fmt);
     vfprintf(log_file, fmt, ap);
     va_end(ap);
@@ -57,14 +61,14 @@ static void say(const char *fmt, ...)
     fflush(log_file);
 }
 
-/* The pin asks for a new file: the old one is closed, the next line starts it anew. */
+/* The pin asks for a new file. */
 static void reopen_when_asked(void)
 {
     if (!hal_get_bool(pins->reopen_log))
         return;
     if (log_file && log_file != stdout) {
         fclose(log_file);
-        log_file = NULL;
+        open_log();
     }
     hal_set_bool(pins->reopen_log, 0);
 }

@@ -31,6 +31,8 @@
 
 namespace {
 
+constexpr char LONG_NAME[] = "File name limited to 254 characters";
+
 struct Link {
     std::unique_ptr<EmcClient> client;
     std::unique_ptr<NML> errors;
@@ -107,6 +109,12 @@ struct Call {
     template <class M> int plain() const {
         M m;
         return give(m);
+    }
+
+    // A file's name into a message; false when it does not fit.
+    template <size_t N> bool file_name(int n, char (&to)[N]) const {
+        copy_text(to, arg(n).c_str());
+        return arg(n).size() < N;
     }
 
     // Index of a word in a list; -1 with an error.
@@ -383,7 +391,7 @@ std::vector<Command> make_commands() {
     add("emc_load_tool_table", [](const Call &c) -> int {
         if (c.argc != 2) return c.need("file");
         EMC_TOOL_LOAD_TOOL_TABLE m;
-        copy_text(m.file, c.arg(1).c_str());
+        if (!c.file_name(1, m.file)) return c.fail(LONG_NAME);
         return c.give(m);
     });
     add("emc_set_tool_offset", [](const Call &c) -> int {
@@ -449,7 +457,7 @@ std::vector<Command> make_commands() {
     add("emc_joint_load_comp", [](const Call &c) -> int {
         EMC_JOINT_LOAD_COMP m;
         if (c.argc != 4 || !c.joint(1, &m.joint) || !c.whole(3, &m.type)) return c.need("joint, file and type");
-        copy_text(m.file, c.arg(2).c_str());
+        if (!c.file_name(2, m.file)) return c.fail(LONG_NAME);
         return c.give(m);
     });
     add("emc_joint_type", [](const Call &c) -> int {
@@ -547,7 +555,7 @@ std::vector<Command> make_commands() {
     add("emc_open", [](const Call &c) -> int {
         if (c.argc != 2) return c.need("file");
         EMC_TASK_PLAN_OPEN m;
-        copy_text(m.file, c.arg(1).c_str());
+        if (!c.file_name(1, m.file)) return c.fail(LONG_NAME);
         return c.give(m);
     });
     add("emc_run", [](const Call &c) -> int {
