@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from .parts import tell
 from .shapes import flat_normals, triangles
 
 
@@ -29,6 +30,8 @@ class File:
                 raise ValueError(f"{self.source}:{number}: {line.strip()!r} cannot be read") from None
         if len(self.points) % 3:
             raise ValueError(f"{self.source}: a triangle has no three corners")
+        if not self.points:
+            tell(f"{self.source}: no triangles; {type(self).__name__} reads text, not a binary file")
         self.arrays = self.finish(np.array(self.points, dtype=float).reshape(-1, 3),
                                   np.array(self.normals, dtype=float).reshape(-1, 3))
 
@@ -54,7 +57,7 @@ class AsciiSTL(File):
 
 
 class AsciiOBJ(File):
-    """Only v, vn and f of three corners count."""
+    """Only v, vn and f count; faces are convex."""
 
     def take(self, words):
         if not hasattr(self, "v"):
@@ -64,10 +67,16 @@ class AsciiOBJ(File):
         elif words[:1] == ["vn"]:
             self.vn.append([float(w) for w in words[1:4]])
         elif words[:1] == ["f"]:
-            for word in words[1:4]:
-                corner = word.split("/")
-                self.points.append(self.at(self.v, corner[0]))
-                self.normals.append(self.at(self.vn, corner[2]) if len(corner) > 2 and corner[2] else [0, 0, 0])
+            corners = [self.corner(word) for word in words[1:]]
+            for pair in zip(corners[1:], corners[2:]):
+                for point, normal in (corners[0], *pair):
+                    self.points.append(point)
+                    self.normals.append(normal)
+
+    def corner(self, word):
+        """Point and normal."""
+        parts = word.split("/")
+        return self.at(self.v, parts[0]), self.at(self.vn, parts[2]) if len(parts) > 2 and parts[2] else [0, 0, 0]
 
     def at(self, found, text):
         """Numbers count from 1, or backwards from -1."""

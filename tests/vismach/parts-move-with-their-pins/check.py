@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import os
+import struct
 import sys
 import tempfile
 from pathlib import Path
@@ -239,6 +240,13 @@ def files(b: Bench, folder: str) -> None:
     obj = v.AsciiOBJ(data="# x\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvn 0 -1 0\nvt 0 0\nf 1//1 2//1 3//1\nf -3 -2 -1\n")
     check("OBJ", obj.arrays[1], np.array([[0, -1, 0]] * 6))
     b.draw(obj)
+    square = v.AsciiOBJ(data="v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    check("OBJ: a face of four corners", sorted(map(tuple, square.arrays[0][:, :2])),
+          [(0, 0), (0, 0), (0, 1), (2, 0), (2, 1), (2, 1)])
+    Path(folder, "b.stl").write_bytes(b"solid \0 by a CAD program".ljust(80) + struct.pack("<I12fH", 1, *range(12), 0))
+    b.view_errors()
+    b.draw(v.AsciiSTL(filename=str(Path(folder, "b.stl"))))
+    check("a binary file is told", "b.stl: no triangles" in b.view_errors(), True)
     for kind, text, part in ((v.AsciiSTL, "facet normal 0 0 1\nvertex 0 x 0\n",
                               "data:2: 'vertex 0 x 0' cannot be read"),
                              (v.AsciiSTL, "vertex 0 0 0\n", "no three corners"),
