@@ -29,13 +29,16 @@ class SerialLine:
     def close(self):
         os.close(self.fd)
 
+    def send(self, data):
+        os.write(self.fd, data)
+
     def ask(self, question, complete, timeout_s):
         """The answer for which complete(answer) is true; b"" after the time-out. What came before is thrown away."""
         try:
             termios.tcflush(self.fd, termios.TCIFLUSH)
         except termios.error as e:
             raise OSError(*e.args) from None
-        os.write(self.fd, question)
+        self.send(question)
         answer, end = b"", time.monotonic() + timeout_s
         while not complete(answer):
             left = end - time.monotonic()

@@ -55,7 +55,8 @@ GROUPS = {
                                      "mesa_uart hm2_modbus mesambccc elbpcom",
     "Sensors": "max31855 thermistor",
     "Devices on Modbus and USB": """mb2hal gs2_vfd hy_vfd hy_gt_vfd svd-ps_vfd mitsub_vfd vfs11_vfd vfdb_vfd wj200_vfd
-        pi500_vfd pmx485 pmx485-test shuttle xhc-hb04 xhc-whb04b-6""",
+        pi500_vfd pmx485 pmx485-test shuttle xhc-hb04 xhc-whb04b-6
+        scorbot-er-3""",
 }
 TITLE = re.compile(r"^= \S+\((\d)\)$", re.M)
 NAMES = re.compile(r"^== NAME\s+([^=]+?) - (.*)$", re.M)

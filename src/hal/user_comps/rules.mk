@@ -14,6 +14,7 @@ $(eval $(call script,panelui,src/hal/user_comps/panelui.py))
 $(eval $(call script,pmx485,src/hal/user_comps/pmx485.py))
 $(eval $(call script,pmx485-test,src/hal/user_comps/pmx485_test.py))
 $(eval $(call script,shuttle,src/hal/user_comps/shuttle.py))
+$(eval $(call script,scorbot-er-3,src/hal/user_comps/scorbot_er_3.py))
 $(eval $(call script,pyui,src/hal/user_comps/pyui.py))
 $(eval $(call script,xhc-hb04-accels,src/hal/user_comps/xhc_hb04_accels.py))
 

@@ -38,7 +38,7 @@ PINS = {
     "millturngui": "jointX jointY jointZ jointA toollength tooldiameter tool-x-offset !millkins",
     "puma560gui": "joint1 joint2 joint3 joint4 joint5 joint6 grip",
     "pumagui": "joint1 joint2 joint3 joint4 joint5 joint6",
-    "scaragui": "joint0 joint1 joint2 joint3 joint4 joint5", "scorbot-er-3": "joint0 joint1 joint2 joint3 joint4",
+    "scaragui": "joint0 joint1 joint2 joint3 joint4 joint5", "scorbot-er-3-gui": "joint0 joint1 joint2 joint3 joint4",
     "xyzab-tdr-gui": "axis-x axis-y axis-z rotary-a rotary-b x_offset z_offset x-rot-point y-rot-point z-rot-point "
                      "tool_length tool_diameter",
     "xyzac-trt-gui": "table-x saddle-y spindle-z tilt-a rotate-c y-offset z-offset tool-offset",
@@ -161,7 +161,7 @@ FORMULAS = {"xyzac-trt-gui": xyzac, "xyzbc-trt-gui": xyzbc, "xyzab-tdr-gui": xyz
             "puma560gui": links((0, 0, 0), (0, -90, 0), (431.8, 0, 149.1), (20.3, -90, 433.1), (0, 90, 0),
                                 (0, -90, 56.3)),
             "melfagui": links((0, 0, 350), (85, -90, 0), (280, 0, 0), (100, -90, 315), (0, 90, 0), (0, -90, 85)),
-            "millturngui": mill_turn, "hbmgui": boring_mill, "maho600gui": maho, "scorbot-er-3": scorbot,
+            "millturngui": mill_turn, "hbmgui": boring_mill, "maho600gui": maho, "scorbot-er-3-gui": scorbot,
             "lineardelta": line_delta, "rotarydelta": rotary_delta, "hexagui": hexapod}
 FIXED = {"R": 130.25, "L": 269.0, "pfr": 10.0, "tl": 10.0, "sl": 14.0, "fr": 6.0}
 
@@ -191,7 +191,7 @@ def examine(root, name: str) -> None:
     pins = PINS[name].replace("+pivot_len", "").replace("!", "").split()
     generator = random.Random(name)
     view = None
-    if name == "scorbot-er-3":
+    if name == "scorbot-er-3-gui":
         module.hand = 0.0           # the kinematics is that of the wrist
     for turn in range(3):
         p = Pins(dict.fromkeys(pins, 0.0))
