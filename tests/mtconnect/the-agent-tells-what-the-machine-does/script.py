@@ -9,6 +9,7 @@ import urllib.error
 import urllib.request
 import xml.etree.ElementTree as ET
 
+import hal
 from mill import *
 
 tests = Path(__file__).resolve().parents[2]
@@ -30,6 +31,7 @@ MQTT_PREFIX = shop
 SAMPLE_HZ = 20
 HAL_ITEM = pin=spindle.0.speed-out, id=out, type=ROTARY_VELOCITY, component=spindle, name=drive
 HAL_ITEM = pin=motion.digital-in-00, id=door, type=LOAD
+HAL_ITEM = pin=panel.level, id=level, type=FILL_LEVEL
 HAL_ITEM = pin=no.such.pin, id=absent, type=LOAD, component=Y
 """)
 agent = clock.spawn(["mtconnect-agent", "agent.ini", "--port", str(http)], "mtconnect-agent", 500)
@@ -162,6 +164,23 @@ c.auto(AUTO_PAUSE)
 until(lambda s: s.task_paused, 10)
 show("paused", "execution")
 c.abort()
+
+print("== values that no document may hold")
+panel = hal.component("panel")
+panel.newpin("level", hal.HAL_FLOAT, hal.HAL_OUT)
+panel.ready()
+panel["level"] = 2.5
+show("a number", "level")
+panel["level"] = float("nan")
+show("none", "level")
+for name in ("a\x01b<&>.ngc", "no\udcffutf8.ngc"):
+    program("M2\n", name)
+    show("a name", "program")
+    print(client.until("program", name.replace("\udcff", "?")))
+flood = Shdr()
+away(flood.line)
+away(lambda: flood.link.sendall(b"x" * 5000))
+print("endless line:", away(lambda: flood.link.recv(1)))
 
 print("== messages")
 clock.wait_until(lambda: any("Sample" in t for _, t, _ in broker.published())

@@ -46,6 +46,12 @@ skipped = {"poll", "tool_table", "axis", "joint", "gettaskfile"}
 print("skipped:", not skipped & {line[:20].strip() for line in lines}, "all of one width:",
       all(len(line) <= 80 for line in lines))
 
+mode(MODE_AUTO)
+Path("no\udcffutf8.ngc").write_text("M2\n")
+c.program_open(os.path.abspath("no\udcffutf8.ngc"))
+c.wait_complete()
+print("a name that is no UTF-8:", [line.split("/")[-1] for line in run_tool("linuxcnctop", "-t").split("\n")
+                                   if line.startswith("file ")])
 print("== linuxcnclcd")
 server = socket.create_server(("127.0.0.1", 0))
 port = server.getsockname()[1]

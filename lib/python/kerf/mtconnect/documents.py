@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The XML documents of MTConnect 1.7: probe, streams, assets, errors."""
 
+import re
 import xml.etree.ElementTree as ET
 
 from . import models
@@ -26,9 +27,13 @@ def add(parent, tag, text=None, /, **attributes):
     return child
 
 
+NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")  # in a program's name, say
+
+
 def serialize(root):
     ET.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
+    text = NO_XML.sub("\ufffd", ET.tostring(root, encoding="unicode"))
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + text + "\n"
 
 
 class Documents:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The data items, and their values from the status of the controller."""
 
+import math
 import os
 import time
 from dataclasses import dataclass
@@ -107,7 +108,8 @@ class Reader:
                     value = self.hal.get_value(item.pin)
                 except RuntimeError:
                     continue
-                found[item.id] = str(int(value)) if isinstance(value, (bool, int)) else rounded(value)
+                if math.isfinite(value):
+                    found[item.id] = str(int(value)) if isinstance(value, (bool, int)) else rounded(value)
         return found
 
     def machine(self):
@@ -147,7 +149,10 @@ class Reader:
         self.seen_tools, self.look_again, found = seen, now + LOOK_AGAIN_S, []
         for entry in seen[0][1:]:
             if entry.id > 0:
-                info = self.stat.toolinfo(entry.id)
+                try:
+                    info = self.stat.toolinfo(entry.id)
+                except ValueError:  # taken out of the table meanwhile
+                    continue
                 info["used"] = entry.id == self.stat.tool_in_spindle
                 found.append(info)
         self.known_tools = found

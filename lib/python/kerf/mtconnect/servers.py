@@ -18,6 +18,7 @@ from .observations import timestamp
 
 XML = "application/xml; charset=utf-8"
 RECONNECT_S = 5.0
+MAX_LINE = 1000       # bytes that a client of SHDR may send
 SENDING_S = 5.0       # a client that takes nothing for so long is dropped
 
 
@@ -110,9 +111,9 @@ def shdr_text(value):
 
 
 def shdr_line(observations):
-    """One line with all scalar observations, or ''."""
+    """One line with all scalar observations, or b''."""
     words = [word for seen in observations if not seen.item.table for word in (seen.item.id, shdr_text(seen.value))]
-    return "|".join([timestamp(), *words]) + "\n" if words else ""
+    return ("|".join([timestamp(), *words]) + "\n").encode(errors="replace") if words else b""
 
 
 class ShdrServer(socketserver.ThreadingTCPServer):
@@ -125,7 +126,7 @@ class ShdrServer(socketserver.ThreadingTCPServer):
         threading.Thread(target=self.serve_forever, daemon=True).start()
 
     def send(self, observations):
-        line = shdr_line(observations).encode()
+        line = shdr_line(observations)
         if not line:
             return
         with self.guard:
@@ -146,12 +147,12 @@ class ShdrClient(socketserver.StreamRequestHandler):
         observations, _ = self.server.agent.observations.current()
         self.give(shdr_line([seen
                              for seen in observations
-                             if seen.item.component in self.server.agent.device_components]).encode())
+                             if seen.item.component in self.server.agent.device_components]))
         with self.server.guard:
             self.server.clients.add(self)
         threading.Thread(target=self.write, daemon=True).start()
         try:
-            for line in self.rfile:
+            while (line := self.rfile.readline(MAX_LINE)).endswith(b"\n"):
                 if line.strip() == b"* PING":
                     self.give(b"* PONG 10000\n")
         finally:

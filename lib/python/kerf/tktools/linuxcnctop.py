@@ -2,6 +2,7 @@
 """linuxcnctop [-ini FILE] [-t]: every status value of the controller; -t prints it once on the terminal."""
 
 import signal
+import sys
 import tkinter as tk
 from tkinter import ttk
 
@@ -63,6 +64,7 @@ def names(stat):
 
 def terminal(stat):
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)       # linuxcnctop -t | head
+    sys.stdout.reconfigure(errors="replace")            # names of files are bytes
     for name in names(stat):
         text = shown(stat, name)
         if text is not None:

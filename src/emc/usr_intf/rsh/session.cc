@@ -112,6 +112,10 @@ bool Session::telnet(unsigned char c) {
         telnet_ = Telnet::command;
         return true;
     case Telnet::command:
+        if (c == IAC) { // the byte itself
+            telnet_ = Telnet::text;
+            return false;
+        }
         telnet_ = c == SB ? Telnet::parameters : c >= WILL && c <= DONT ? Telnet::option : Telnet::text;
         return c >= SE; // else the command itself was out of band
     case Telnet::option: telnet_ = Telnet::text; return true;
