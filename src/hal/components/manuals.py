@@ -50,7 +50,7 @@ GROUPS = {
         axistest steptest""",
     "Ladder logic": "classicladder_rt",
     "Statistics": "histobins histobinstream latencybins latencybinstream",
-    "Hardware": "hal_parport hal_speaker serport hal_gpio hal_pi_gpio",
+    "Hardware": "hal_parport hal_speaker serport hal_gpio hal_pi_gpio hal_bb_gpio",
     "Boards with HostMot2 firmware": "hostmot2 hm2_eth hm2_pci hm2_spi hm2_spix hm2_rpspi hm2_7i43 hm2_7i90 hm2_test "
                                      "mesa_uart hm2_modbus mesambccc elbpcom",
     "Sensors": "max31855 thermistor",

@@ -2,23 +2,15 @@
  *
  * hal_pi_gpio.c - the pins of a Raspberry Pi's header, by the registers of its BCM283x or BCM2711.
  *
- * In:     /proc/device-tree/model, /proc/cpuinfo: which board this is. Its registers: /dev/gpiomem, or /dev/mem.
- *         For tests, the folder KERF_PI_ROOT has these files, and dev/gpiomem is memory.
+ * In:     /proc/device-tree/model, /proc/cpuinfo: which board this is. Its registers: /dev/gpiomem, or /dev/mem
  * Thread: read and write [any]; one or two accesses to a register and the number of pins
  * Source: BCM2835 ARM Peripherals, chapter 6
  */
-#include <errno.h>
-#include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <rtapi.h>
 #include <rtapi_app.h>
 #include <hal.h>
 #include "components/comp_util.h"
+#include "drivers/board.h"
 
 MODULE_LICENSE("GPL");
 MODULE_AUTHOR("Kerf developers");
@@ -26,7 +18,6 @@ MODULE_DESCRIPTION("Pins of a Raspberry Pi's header");
 
 #define TAG "hal_pi_gpio: "
 #define MAX_PINS 26
-#define MAP_BYTES 4096
 
 /* Registers, in words. Each has a bit for a GPIO; FUNCTION has three for each of ten. */
 enum { FUNCTION = 0, SET = 7, CLEAR = 10, LEVEL = 13 };
@@ -103,14 +94,6 @@ static void write_pins(void *arg, long period)
 
 /* ---- Start -------------------------------------------------------------- */
 
-static const char *path_of(const char *file)
-{
-    static char path[256];
-    const char *root = secure_getenv("KERF_PI_ROOT");
-    snprintf(path, sizeof path, "%s%s", root ? root : "", file);
-    return path;
-}
-
 static int mask_of(const char *name, const char *text, rtapi_u32 *mask)
 {
     char *end;
@@ -128,17 +111,11 @@ static int mask_of(const char *name, const char *text, rtapi_u32 *mask)
 /* 0 if this is a Raspberry Pi; says what it is otherwise. */
 static int check_model(void)
 {
-    char model[128] = "";
-    FILE *f = fopen(path_of("/proc/device-tree/model"), "re");
-    if(f) {
-        size_t length = fread(model, 1, sizeof model - 1, f);
-        model[length] = 0;
-        fclose(f);
-    }
+    char model[128];
+    board_text(BOARD_MODEL, model, sizeof model);
     if(strncmp(model, "Raspberry", 9) == 0) return 0;
-    rtapi_print_msg(RTAPI_MSG_ERR,
-                    TAG "unrecognized Raspberry revision: this computer %s%s%s; hal_gpio drives the GPIO of other "
-                    "boards\n", f ? "is a '" : "has no /proc/device-tree/model", model, f ? "'" : "");
+    rtapi_print_msg(RTAPI_MSG_ERR, TAG "unrecognized Raspberry revision: this computer is '%s' (" BOARD_MODEL
+                    "); hal_gpio drives the GPIO of other boards\n", model[0] ? model : "unknown");
     return -EINVAL;
 }
 
@@ -146,7 +123,7 @@ static int board_code(rtapi_u32 *code)
 {
     char line[256];
     int found = 0;
-    FILE *f = fopen(path_of("/proc/cpuinfo"), "re");
+    FILE *f = fopen(board_path("/proc/cpuinfo"), "re");
     while(f && !found && fgets(line, sizeof line, f)) found = sscanf(line, "Revision : %x", code) == 1;
     if(f) fclose(f);
     if(found) return 0;
@@ -178,26 +155,11 @@ static int recognize(rtapi_u32 code, const struct layout **layout, unsigned long
 
 static int map_registers(unsigned long address)
 {
-    void *map = MAP_FAILED;
-    int fd = rtapi_open_as_root(path_of("/dev/gpiomem"), O_RDWR | O_SYNC), why = fd, err = 0;
-    if(fd >= 0) {
-        address = 0;
-    } else {
-        fd = rtapi_open_as_root(path_of("/dev/mem"), O_RDWR | O_SYNC);
-    }
-    if(fd >= 0) {
-        map = mmap(NULL, MAP_BYTES, PROT_READ | PROT_WRITE, MAP_SHARED, fd, (off_t)address);
-        err = errno;
-        close(fd);
-    }
-    if(map != MAP_FAILED) {
-        reg = map;
-        return 0;
-    }
-    rtapi_print_msg(RTAPI_MSG_ERR, TAG "cannot reach the GPIO registers: /dev/gpiomem: %s%s%s; the user must be in the "
-                    "group gpio, or rtapi_app setuid\n", strerror(why < 0 ? -why : err), why < 0 ? ", /dev/mem: " : "",
-                    why < 0 ? strerror(fd < 0 ? -fd : err) : "");
-    return why < 0 ? why : -err;
+    int why = board_map("/dev/gpiomem", 0, &reg), mem = why ? board_map("/dev/mem", address, &reg) : 0;
+    if(!mem) return 0;
+    rtapi_print_msg(RTAPI_MSG_ERR, TAG "cannot reach the GPIO registers: /dev/gpiomem: %s, /dev/mem: %s; the user must "
+                    "be in the group gpio, or rtapi_app setuid\n", strerror(-why), strerror(-mem));
+    return why;
 }
 
 static void set_function(int gpio, rtapi_u32 function)
@@ -249,7 +211,7 @@ static void release(void)
     if(!reg) return;
     reg[CLEAR] = outputs;
     for(n = 0; n < (int)FUNCTION_WORDS; n++) reg[FUNCTION + n] = functions_before[n];
-    munmap((void *)reg, MAP_BYTES);
+    board_unmap(reg);
 }
 
 int rtapi_app_main(void)

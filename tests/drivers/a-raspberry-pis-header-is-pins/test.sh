@@ -1,15 +1,15 @@
 #!/bin/bash
 # hal_pi_gpio on a board that is files: the pins of each header, masks, registers while it runs and at the end; boards
 # and masks that can not be.
-KERF_PI_ROOT=$(realpath "$(mktemp -d)")
-export KERF_PI_ROOT KERF_CLOCK=virtual
-trap 'rm -rf "$KERF_PI_ROOT" t.hal look' EXIT
-mkdir -p "$KERF_PI_ROOT/proc/device-tree" "$KERF_PI_ROOT/dev"
-registers="$KERF_PI_ROOT/dev/gpiomem"
-run() { halrun -f t.hal 2>&1 | grep -vE "^Note|exited without|waitpid|not loaded|insmod for" | sed "s,$KERF_PI_ROOT,,; s/t.hal:[0-9]*: //"; }
+KERF_BOARD_ROOT=$(realpath "$(mktemp -d)")
+export KERF_BOARD_ROOT KERF_CLOCK=virtual
+trap 'rm -rf "$KERF_BOARD_ROOT" t.hal look' EXIT
+mkdir -p "$KERF_BOARD_ROOT/proc/device-tree" "$KERF_BOARD_ROOT/dev"
+registers="$KERF_BOARD_ROOT/dev/gpiomem"
+run() { halrun -f t.hal 2>&1 | grep -vE "^Note|exited without|waitpid|not loaded|insmod for" | sed "s,$KERF_BOARD_ROOT,,; s/t.hal:[0-9]*: //"; }
 board() { # revision [model]
-    printf '%s\0' "${2-Raspberry Pi 4 Model B Rev 1.2}" > "$KERF_PI_ROOT/proc/device-tree/model"
-    printf 'processor\t: 0\n\nHardware\t: BCM2835\nRevision\t: %s\nSerial\t: 1\n' "$1" > "$KERF_PI_ROOT/proc/cpuinfo"
+    printf '%s\0' "${2-Raspberry Pi 4 Model B Rev 1.2}" > "$KERF_BOARD_ROOT/proc/device-tree/model"
+    printf 'processor\t: 0\n\nHardware\t: BCM2835\nRevision\t: %s\nSerial\t: 1\n' "$1" > "$KERF_BOARD_ROOT/proc/cpuinfo"
     head -c 4096 /dev/zero > "$registers"
 }
 put() { /usr/bin/python3 -c 'import struct, sys; f = open(sys.argv[1], "r+b"); f.seek(int(sys.argv[2]) * 4); f.write(struct.pack("<I", int(sys.argv[3], 0)))' "$registers" "$@"; }
@@ -17,7 +17,7 @@ put() { /usr/bin/python3 -c 'import struct, sys; f = open(sys.argv[1], "r+b"); f
 cat > look <<'END'
 #!/usr/bin/python3
 import os, struct
-words = struct.unpack("<16I", open(os.environ["KERF_PI_ROOT"] + "/dev/gpiomem", "rb").read(64))
+words = struct.unpack("<16I", open(os.environ["KERF_BOARD_ROOT"] + "/dev/gpiomem", "rb").read(64))
 print("functions", "".join(str(words[n // 10] >> n % 10 * 3 & 7) for n in range(30)), f"set {words[7]:07x} cleared {words[10]:07x}")
 END
 chmod +x look
@@ -72,10 +72,10 @@ board c03999
 run
 board a02082 "Orange Pi Zero"
 run
-echo > "$KERF_PI_ROOT/proc/cpuinfo"
-printf 'Raspberry Pi 3' > "$KERF_PI_ROOT/proc/device-tree/model"
+echo > "$KERF_BOARD_ROOT/proc/cpuinfo"
+printf 'Raspberry Pi 3' > "$KERF_BOARD_ROOT/proc/device-tree/model"
 run
-rm "$KERF_PI_ROOT/proc/device-tree/model"
+rm "$KERF_BOARD_ROOT/proc/device-tree/model"
 run
 board a02082
 rm "$registers"
