@@ -129,6 +129,7 @@ def on_pause(halui, motion) -> None:
     for text, value, color in (("1.25", 1.25, "ink"), ("1,5", 1.5, "ink"), ("1.5.2", 1.5, "bad"), ("nan", 1.5, "bad"),
                                ("99", 3.0, "ink")):
         entry = window.entries["y"]
+        check("as dark as its window while it is locked", entry["disabledbackground"], window.style.colours["face"])
         entry.delete(0, "end")
         entry.insert(0, text)
         entry.focus_force()
