@@ -7,7 +7,6 @@ Order, texts and exit statuses: launcher reference, sections 1 to 7.
 """
 
 import contextlib
-import ctypes
 import getopt
 import os
 import shlex
@@ -16,17 +15,18 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import traceback
 import uuid
 from pathlib import Path
-from pwd import getpwuid
 
 from . import clock, instance
 from .inivalues import IniError, IniValues
+from .launch_logs import Logs, Lossy
 from .process import end_with_parent
 from .screen_record import CRASH, MOST, RETRY_S, VARIABLE, WITHIN_S, Restarts
+from .session_processes import (CHILD_END_S, SESSION, comm_of, end, ended, lives, session_processes, state_of, status_of,
+                                user_name)
 from .tree import Tree
 
 USAGE = """linuxcnc: Run LinuxCNC
@@ -52,9 +52,7 @@ WATCH_MS = 100          # at most between two looks at the processes
 BUSY_MS = 1000          # between two looks whether a program runs, while there is no screen
 READY_WAIT_S = 10.0     # for task to publish the first settings
 TASK_COMPONENT = "inihal"        # of task, in HAL
-CHILD_END_S = 1.9       # for a process to end after TERM, and again after KILL
 SAFE_STOP_S = 2.0       # for motion to be ended after task has died
-SESSION = "LINUXCNC_SESSION"
 DISPLAY_PART = "_DISPLAY"     # of the variable that marks the display and its children
 HOST_KEYS = (0x48414C32, 0x90280A48, 0x48484C34)     # HAL, RTAPI, UUID
 TOOL_KEY = 101
@@ -125,95 +123,6 @@ def interpreter_of(program, env):
     except (OSError, TypeError):
         return ""
     return f"; its first line asks for {first[2:].strip()}" if first.startswith("#!") else ""
-
-
-def ended(returncode):
-    """How a program ended, in words."""
-    return (f"ended with status {returncode}" if returncode > 0
-            else f"was ended by signal {-returncode} ({signal.Signals(-returncode).name})")
-
-
-def status_of(returncode):
-    """Shell-like exit status of a subprocess."""
-    return 128 - returncode if returncode < 0 else returncode
-
-
-def session_processes(session, part=""):
-    """Ids of all other processes that this session started, at any depth; the likely ones come first.
-    part: only the display and what it started."""
-    wanted = f"{SESSION}{part}={session}".encode()
-    me, parent = os.getpid(), os.getppid()
-    hosts = set() if part else instance.users_of_memory()
-    for pid in sorted((int(e) for e in os.listdir("/proc") if e.isdigit()), key=lambda p: (p < me, p)):
-        if pid in (me, parent):
-            continue
-        try:
-            with open(f"/proc/{pid}/environ", "rb") as f:
-                if wanted not in f.read().split(b"\0"):
-                    continue
-        except PermissionError:         # of a setuid program
-            if pid not in hosts or not comm_of(pid).startswith("rtapi_app"):
-                continue
-        except OSError:
-            continue
-        if lives(pid):
-            yield pid
-
-
-def user_name(uid):
-    try:
-        return getpwuid(uid).pw_name
-    except KeyError:
-        return f"user {uid}"
-
-
-def comm_of(pid):
-    try:
-        with open(f"/proc/{pid}/comm") as f:
-            return f.read().strip()
-    except OSError:
-        return ""
-
-
-def lives(pid):
-    """False also for a process that has ended and that nobody has waited for."""
-    return state_of(pid) not in "ZX"
-
-
-def end(pids, still_there=lives):
-    """TERM, then KILL, each with a wait. Returns those that did not go."""
-    for sig in (signal.SIGTERM, signal.SIGKILL):
-        for pid in pids:
-            try:
-                os.kill(pid, sig)
-            except OSError:
-                pass
-        until = time.monotonic() + CHILD_END_S
-        while pids and time.monotonic() < until:
-            reap()
-            pids = [p for p in pids if still_there(p)]
-            if pids:
-                time.sleep(0.005)
-        if not pids:
-            break
-    return pids
-
-
-def reap():
-    """Collects children that have ended."""
-    try:
-        while os.waitpid(-1, os.WNOHANG)[0]:
-            pass
-    except ChildProcessError:
-        pass
-
-
-def state_of(pid):
-    try:
-        with open(f"/proc/{pid}/stat") as f:
-            return f.read().rsplit(")", 1)[1].split()[0]
-    except OSError:
-        return "X"
 
 
 class Session:
@@ -407,7 +316,7 @@ class Session:
                 raise Failure(f"LinuxCNC was started by {user_name(uid)}: {end_it} as that user or as root")
 
     def start(self):
-        o, env = self.options, self.env
+        env = self.env
         print("Starting LinuxCNC...", flush=True)
         os.chdir(os.path.dirname(self.ini_path))
         self.show_splash()
@@ -766,72 +675,6 @@ class Session:
                 instance.remove_segment(segment)
 
 
-class Logs:
-    """Temporary logs when standard input is no terminal; kept in HOME after an error."""
-
-    SENT = {"print": "(print information was sent to stdout)", "debug": "(debug information was sent to stderr)"}
-
-    def __init__(self, options):
-        self.quiet = options.test_mode
-        self.active = not os.isatty(0) and not self.quiet
-        self.files = {}
-        if not self.active:
-            return
-        for kind, stream in (("print", 1), ("debug", 2)):
-            fd, path = tempfile.mkstemp(prefix=f"linuxcnc.{kind}.")
-            self.files[kind] = path
-            self.tee(fd, stream)
-
-    @staticmethod
-    def tee(fd, stream):
-        sys.stdout.flush()
-        os.dup2(fd, stream)
-        os.close(fd)
-
-    def keep(self, kind):
-        """The name of the log that is kept."""
-        try:
-            target = instance.suffixed(str(Path.home() / f"linuxcnc_{kind}.txt"))
-            if self.active:
-                shutil.copyfile(self.files[kind], target)
-            else:
-                Path(target).write_text(self.SENT[kind] + "\n")
-            return target
-        except (OSError, RuntimeError):     # there is no home, or nothing can be written in it
-            return self.files.get(kind, self.SENT[kind])
-
-    def show(self, died, *texts):
-        """A window of its own process: the screen is gone."""
-        if os.environ.get("DISPLAY") and not self.quiet:
-            subprocess.Popen([sys.executable, "-m", "kerf.launch_windows", "errors", died, *texts],
-                             stdin=subprocess.DEVNULL, env=dict(os.environ, PYTHONPATH=str(Tree.find().python)),
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-
-    def finish(self, status, terminal, died):
-        """died: the part of the machine that ended and must not; the operator is told also without logs."""
-        if not self.active and died:
-            self.show(died)
-        if self.quiet:
-            return
-        sys.stdout.flush()
-        sys.stderr.flush()
-        texts = []
-        if status:
-            texts = [self.keep(kind) for kind in self.SENT]
-            if self.active:
-                with open(self.files["debug"], "rb") as f:
-                    os.write(terminal, f.read()[-4000:])
-                self.show(died, *texts)
-            os.write(terminal, (
-                "LinuxCNC terminated with an error.  You can find more information in the log:\n"
-                f"    {texts[1]}\nand\n    {texts[0]}\n"
-                "as well as in the output of the shell command 'dmesg' and in the terminal\n").encode())
-        for path in self.files.values():
-            if path not in texts:
-                with contextlib.suppress(OSError):
-                    os.unlink(path)
-
-
 def find_ini(options, tree):
     """Absolute path of the INI file that the command line means."""
     path = options.ini
@@ -857,8 +700,8 @@ def find_ini(options, tree):
 
 
 def ignore_ends():
-    for end in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
-        signal.signal(end, signal.SIG_IGN)
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
+        signal.signal(number, signal.SIG_IGN)
 
 
 def interrupted(*_):
@@ -870,28 +713,6 @@ def on_hangup(handler):
     """The terminal was closed: an end like any other, unless the user wanted it to go on (nohup)."""
     if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:
         signal.signal(signal.SIGHUP, handler)
-
-
-class Lossy:
-    """A text stream whose reader may go away: what can't be written is lost, and nothing else happens."""
-
-    def __init__(self, stream):
-        self.stream = stream
-
-    def write(self, text):
-        try:
-            return self.stream.write(text)
-        except OSError:
-            return len(text)
-
-    def flush(self):
-        try:
-            self.stream.flush()
-        except OSError:
-            pass
-
-    def __getattr__(self, name):
-        return getattr(self.stream, name)
 
 
 def session_main(options, ini_path, tree, guard, told):

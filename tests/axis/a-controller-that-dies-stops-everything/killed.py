@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 import os
 import signal
-import sys
 
 import hal
 import operator_lib as lib

@@ -2,15 +2,13 @@
 # Presses each key of the sheet's table in each state of the screen and writes down what the machine is told and what
 # the screen shows.
 import os
-import sys
 import tkinter as tk
 from tkinter import filedialog
-from types import SimpleNamespace
 
 import linuxcnc
 import operator_lib as lib
 from axis.follow import OPTIONS
-from axis import commands, dialogs
+from axis import dialogs
 
 SHIFT, CONTROL, ALT, NUMLOCK = 1, 4, 8, 16
 # (keysym, modifiers): the table of the reference in its order; then combinations that must do nothing

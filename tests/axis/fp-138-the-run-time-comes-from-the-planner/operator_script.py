@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 import sys
 
-import linuxcnc
 import operator_lib as lib
 from axis.program import properties
 from kerf import clock

@@ -5,7 +5,6 @@ import os
 import random
 import sys
 
-import linuxcnc
 import operator_lib
 
 SEED, STEPS = int(os.environ.get("SEED") or 184), int(os.environ.get("STEPS") or 24)

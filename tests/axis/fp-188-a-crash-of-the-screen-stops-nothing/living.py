@@ -9,7 +9,7 @@ import hal
 import hal.query
 import linuxcnc
 import operator_lib as lib
-from kerf.launcher import lives
+from kerf.session_processes import lives
 
 PINS = ("pyvcp.held", "pyvcp.checked", "pyvcp.level-f", "pyvcp.wheel", "pyvcp.lamp", "axisui.abort", "velocity.in",
         "motion.adaptive-feed")

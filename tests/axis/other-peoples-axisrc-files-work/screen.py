@@ -4,7 +4,6 @@
 import glob
 import os
 import sys
-import tkinter as tk
 
 import hal
 import linuxcnc

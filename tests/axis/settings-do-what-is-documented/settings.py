@@ -4,7 +4,6 @@ import os
 import struct
 import sys
 
-import linuxcnc
 import operator_lib as lib
 from axis import dialogs
 from axis.program import properties

@@ -1,6 +1,5 @@
 """Links pins of every type and direction in every order; the signal's value and what pins
 keep at unlinking must be the documented ones, at full width."""
-import itertools
 import hal
 
 LIMITS = {hal.HAL_BIT: (True, False), hal.HAL_FLOAT: (1.5e300, -2.25), hal.HAL_S32: (-2**31, 7),

@@ -1,7 +1,6 @@
 """A program with components that ends in any way leaves no component behind; SIGTERM raises
 KeyboardInterrupt; a forked child does not take its parent's components with it."""
 import os
-import signal
 import subprocess
 import sys
 import hal

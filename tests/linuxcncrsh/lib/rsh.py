@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A linuxcncrsh of its own for a test, and conversations with it (in virtual time)."""
 import socket
-import subprocess
 
 from kerf import clock
 

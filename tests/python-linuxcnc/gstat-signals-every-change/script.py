@@ -5,7 +5,7 @@ import os
 os.environ["INI_FILE_NAME"] = os.path.abspath("mill.ini")
 
 import hal
-from gi.repository import GLib, GObject
+from gi.repository import GObject
 
 import hal_glib
 from mill import *

@@ -3,7 +3,6 @@
 # what they put out stays a number. Below halrun.
 import math
 import os
-import random
 import sys
 import tkinter
 from pathlib import Path

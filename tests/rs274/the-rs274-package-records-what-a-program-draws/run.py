@@ -11,7 +11,6 @@ import gcode
 import rs274
 from rs274.author import Gcode, simplify
 from rs274.glcanon import GLCanon
-from rs274.glcanon_bake import ProgramGeometry
 from rs274.glcanon_batch import BatchGLCanon
 from rs274.interpret import StatMixin
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # mdi, linuxcnctop -t and linuxcnclcd (with a display server of our own).
 import os
-import select
 import socket
 import subprocess
 

@@ -6,7 +6,6 @@ windows.py untranslated: their texts that come from no catalogue.
 import array
 import math
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 sys.path.insert(0, "../../../src/hal/user_comps")

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 import os
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
 import fit_check
-import linuxcnc
 from kerf.haltools import strip_chart
 from kerf.tktools import debuglevel, emccalib, halconfig, linuxcnctop, monitor_xhc_hb04, tklinuxcnc
 from kerf.tktools.calibration import Calibration

@@ -13,7 +13,8 @@ TESTS = re.compile(r"(^|/)(test|tests|bench|fuzz)(/|-|_|\.)|_unit\.cc|_stages\.c
 KNOWN = {
     "the way itself": "src/emc/ini/replace_file.cc",
     "of a session, in its own folder": "lib/python/axis/program.py lib/python/axis/reading.py "
-                                       "lib/python/kerf/launcher.py lib/python/kerf/haltools/latency_test.py "
+                                       "lib/python/kerf/launcher.py lib/python/kerf/launch_logs.py "
+                                       "lib/python/kerf/haltools/latency_test.py "
                                        "lib/python/kerf/haltools/latency_panel.py lib/python/kerf/screen_record.py "
                                        "src/emc/tool/toolstore.cc lib/python/kerf/runner.py",
     "reports, exports, logs": "lib/python/kerf/failures.py lib/python/kerf/launch_windows.py "
