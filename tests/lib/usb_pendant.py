@@ -20,11 +20,15 @@ class Pendant:
         self.folder = Path(os.environ["PENDANT"])
         self.program, self.prefix, self.product, self.size, self.display = program, prefix, product, size, display
         library = self.folder / "usb.so"
+        self.environment = dict(os.environ, LD_PRELOAD=str(library))
+        if not library.exists():
+            self.make(library)
+        self.pipe = os.open(self.folder / "in", os.O_RDWR)
+
+    def make(self, library):
         flags = subprocess.run(["pkg-config", "--cflags", "libusb-1.0"], stdout=subprocess.PIPE, text=True).stdout
         subprocess.run(["cc", "-shared", "-fPIC", *flags.split(), "-o", library, HERE / "usb_pendant.c"], check=True)
         os.mkfifo(self.folder / "in")
-        self.pipe = os.open(self.folder / "in", os.O_RDWR)
-        self.environment = dict(os.environ, LD_PRELOAD=str(library))
 
     def appear(self, numbers=None):
         (self.folder / "present").write_text(f"{numbers or f'10ce:{self.product:x}'} {self.size}")
