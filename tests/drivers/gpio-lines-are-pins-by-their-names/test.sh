@@ -29,6 +29,17 @@ cd_chips rm -f log
 run
 log
 
+echo "== more lines than one request takes"
+seq -f L%g 70 > "$KERF_GPIO_CHIPS/gpiochip11"
+{
+    echo "loadrt hal_gpio outputs=$(seq -s, -f L%g 70) reset=L66"
+    printf 'setp hal_gpio.%s-out 1\n' L1 L66 L70
+    printf '%s\n' "loadrt threads name1=t period1=1000000" "addf hal_gpio.write t" "addf hal_gpio.reset t" start "loadusr -w kerf-clock sleep 0.01"
+} > t.hal
+run
+log | sed 's/ L[0-9]*=0//g; s/ L[0-9]* out 0,\?//g' | sort | uniq -c | awk '{ $1 = $1 > 1 ? "more than once" : "once"; print }'
+cd_chips rm gpiochip11 gpiochip11.levels
+
 echo "== levels"
 cat > t.hal <<'END'
 loadrt hal_gpio inputs=GPIO2,EXP1 outputs=GPIO3,GPIO4,GPIO6 invert=GPIO4,GPIO6 reset=GPIO6,GPIO3
