@@ -17,19 +17,41 @@ static void (*const phases[])(struct motion *) = {
     phase_output,        phase_homing_outputs,    phase_status,
 };
 
+/* The computer stood still for t s. Where the motors are is known by the drives at most: the program is held as by a
+ * pause, jogs end, and task tells the operator. */
+static void stall_hold(struct motion *m, double t)
+{
+    emcmot_status_t *s = m->status;
+    s->stalls++;
+    s->stall_time = t;
+    s->stall_ended = STALL_NOTHING;
+    if (s->motion_state == EMCMOT_MOTION_COORD && tpQueueDepth(&m->tp) > 0) {
+        tpPause(&m->tp);
+        s->paused = 1;
+        s->stall_ended = STALL_PROGRAM;
+    }
+    if (m->jog_was_active) {
+        jogs_end(m, 0);
+        s->stall_ended = STALL_JOG;
+    }
+}
+
 void motion_controller(void *arg, long period_ns)
 {
     struct motion *m = arg;
     emcmot_status_t *s = m->status;
     long long now_ns = rtapi_get_time();
+    long long since_ns = m->last_start_ns != 0 ? now_ns - m->last_start_ns : 0;
     if (m->last_start_ns != 0)
-        hal_set_ui32(m->pins->last_period, (rtapi_u32)(now_ns - m->last_start_ns));
+        hal_set_ui32(m->pins->last_period, (rtapi_u32)since_ns);
     m->last_start_ns = now_ns;
     if (period_ns != m->period_ns)
         cycle_times(m, period_ns);
 
     emcmotBlockBegin(&s->head);
     emcmotBlockBegin(&m->internal->head);
+    if (m->stall_hold_ns > 0 && since_ns > m->stall_hold_ns)
+        stall_hold(m, (double)since_ns * 1e-9);
     for (unsigned i = 0; i < sizeof(phases) / sizeof(phases[0]); i++)
         phases[i](m);
     m->first_pass = 0;

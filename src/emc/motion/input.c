@@ -69,17 +69,22 @@ static void joint_input(struct motion *m, int j)
     set_joint_flag(jt, EMCMOT_JOINT_FAULT_BIT, hal_get_bool(p->amp_fault_in));
 }
 
-static void jog_stop(struct motion *m)
+void jogs_end(struct motion *m, int immediate)
 {
-    int immediate = hal_get_bool(m->pins->jog_stop_immediate);
-    if (!m->jog_was_active || !(immediate || hal_get_bool(m->pins->jog_stop)))
-        return;
     for (int j = 0; j < kin_joints(m); j++)
         joint_stop(m, j, immediate);
     axes_abort(m, immediate);
     if (!immediate)
         for (int n = 0; n < EMCMOT_MAX_AXIS; n++)
             m->axis[n].kb_ajog_active = m->axis[n].wheel_ajog_active = 0;
+}
+
+static void jog_stop(struct motion *m)
+{
+    int immediate = hal_get_bool(m->pins->jog_stop_immediate);
+    if (!m->jog_was_active || !(immediate || hal_get_bool(m->pins->jog_stop)))
+        return;
+    jogs_end(m, immediate);
     report_error(immediate ? "Jog aborted by jog-stop-immediate" : "Jog aborted by jog-stop");
 }
 

@@ -51,7 +51,11 @@ RTAPI_MP_ARRAY_STRING(names_misc_errors, EMCMOT_MAX_MISC_ERROR, "names of error 
 static int unlock_joints_mask = 0;
 RTAPI_MP_INT(unlock_joints_mask, "mask of joints with unlock pins");
 
+static int stall_hold = -1;
+RTAPI_MP_INT(stall_hold, "ms between two cycles that hold motion, 0 never, -1: 20 where there is realtime");
+
 #define DEFAULT_DIO 4
+#define DEFAULT_STALL_HOLD_MS 20
 #define DEFAULT_AIO 4
 
 struct motion motion_state_;
@@ -246,6 +250,9 @@ static int load(struct motion *m)
         return -1;
     }
     state_init(m, &sizes);
+    if (stall_hold < 0)
+        stall_hold = rtapi_is_realtime() ? DEFAULT_STALL_HOLD_MS : 0;
+    m->stall_hold_ns = stall_hold * 1000000LL;
     if (make_threads() != 0)
         return -1;
     if (bind_modules(m) != 0)

@@ -27,6 +27,9 @@
 extern "C" {
 #endif
 
+/* What a stall of the computer has held or ended. */
+enum { STALL_NOTHING, STALL_PROGRAM, STALL_JOG };
+
 /* ---- commands ------------------------------------------------------------ */
 
 typedef enum {
@@ -394,6 +397,9 @@ typedef struct emcmot_status {
     int numExtraJoints;
     int stepping;
     int jogging_active;
+    unsigned int stalls; /* how often the computer stood still for longer than stall_hold */
+    double stall_time;   /* s, the last time */
+    int stall_ended;     /* STALL_...: what it held or ended */
     unsigned int tail;
 } emcmot_status_t;
 

@@ -154,6 +154,7 @@ struct motion {
     double servo_period, traj_period; /* s */
     int interpolation_rate;
     long long last_start_ns;
+    long long stall_hold_ns;   /* between two cycles, at most; 0: any time */
     int first_pass;            /* wheel counters are only read */
 
     int pending_planner_type;  /* -1 none */
@@ -270,6 +271,7 @@ int coord_in_position(struct motion *m);
 void axis_init(struct motion *m);
 void axes_sync_to(struct motion *m, const EmcPose *pose); /* at rest there */
 void axes_abort(struct motion *m, int immediate);
+void jogs_end(struct motion *m, int immediate);
 /* Units: below any encoder; interpolated positions round by more than 1e-12. */
 #define LIMIT_EPSILON 1e-9
 

@@ -27,6 +27,9 @@ public:
     bool alive();
 
     int stop_causes() const { return stop_causes_; } // EMCMOT_STOP_*: what switched motion off
+    unsigned stalls() const { return status_->stalls; } // how often motion was held since the computer stood still
+    double stall_time() const { return status_->stall_time; } // s, the last time
+    int stall_ended() const { return status_->stall_ended; } // STALL_...
 
     // Sends a command with the id of the line under way.
     int send(emcmot_command_t &c);

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include "emc_args.hh"
 #include "emc/canon/hal_number.hh"
@@ -295,6 +296,7 @@ void Task::cycle() {
     execute();
     update_motion();
     watch_enable();
+    watch_stalls();
     watch_estop();
     watch_errors();
     recover();
@@ -358,6 +360,26 @@ void Task::watch_enable() {
     bool enabled = stat_.motion.traj.enabled;
     if (was_enabled_ && !enabled) motion_.unhome(-2);
     was_enabled_ = enabled;
+}
+
+// Motion holds by itself what it was doing when the computer stood still.
+void Task::watch_stalls() {
+    if (motion_.stalls() == stalls_) return;
+    stalls_ = motion_.stalls();
+    const int ended = motion_.stall_ended();
+    if (ended == STALL_PROGRAM) plan_pause();
+    double load[1] = {0};
+    getloadavg(load, 1);
+    const time_t now = time(nullptr);
+    struct tm parts;
+    char text[LINELEN], when[16];
+    strftime(when, sizeof when, "%H:%M:%S", localtime_r(&now, &parts));
+    snprintf(text, sizeof text, "%s: the computer stood still for %.3f s (load %.1f on %u CPUs)%s. \"realtime verify\" tells what to "
+             "change", when, motion_.stall_time(), load[0], std::thread::hardware_concurrency(),
+             ended == STALL_PROGRAM ? ": motion is held on its path, look at the tool and resume"
+             : ended == STALL_JOG   ? ": the jog has ended"
+                                    : "");
+    operator_error(text);
 }
 
 void Task::watch_estop() {

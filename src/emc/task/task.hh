@@ -49,6 +49,7 @@ private:
     void execute();
     void update_motion();
     void watch_enable();
+    void watch_stalls();
     void watch_estop();
     void watch_errors();
     void watch_fault_stop();
@@ -197,6 +198,7 @@ private:
     int step_line_ = 0;
     int64_t chain_due_ = 0;      // ns: when the emergency stop chain should be closed after a reset; 0 no matter
     bool was_on_ = false, was_enabled_ = false;
+    unsigned stalls_ = 0; // that the operator was told of
     bool eager_ = false;
     int64_t delay_until_ = 0;    // ns
     bool input_watched_ = false, input_armed_ = false;

@@ -55,6 +55,7 @@ struct rtapi_backend_ops {
     unsigned version;           /* RTAPI_BACKEND_VERSION */
     const char *banner;         /* "POSIX realtime": printed as "Note: Using ..." */
     bool warn_late;             /* tell the user about the first late cycle */
+    bool makes_up;              /* a late task runs all the cycles it missed; else few (MOST_MADE_UP) */
     int prio_highest, prio_lowest;
     /* Once, before the first task. 0 or -errno. */
     int (*init)(void);

@@ -248,7 +248,7 @@ void host_task_body(struct task *task)
 
 /* ---- Lateness ----------------------------------------------------------- */
 
-static void lateness_count(struct task *t, int64_t now_ns, int64_t late_ns, bool overrun)
+static void lateness_count(struct task *t, int64_t now_ns, int64_t late_ns, int64_t overruns)
 {
     struct rtapi_lateness *l = &t->late;
     unsigned seq = atomic_load_explicit(&t->sequence, memory_order_relaxed);
@@ -262,7 +262,7 @@ static void lateness_count(struct task *t, int64_t now_ns, int64_t late_ns, bool
     unsigned scaled = late >> 10 > 0x7fffffff ? 0x7fffffffU : (unsigned)(late >> 10);
     int bin = scaled ? 32 - __builtin_clz(scaled) : 0;
     l->cycles++;
-    l->overruns += overrun;
+    l->overruns += overruns;
     l->last_ns = late;
     l->bins[bin < RTAPI_LATENESS_BINS ? bin : RTAPI_LATENESS_BINS - 1]++;
     if (late > l->worst_ns) {
@@ -312,6 +312,10 @@ static void warn_once(const struct task *t)
     }
 }
 
+/* A task that was held up for more cycles than this goes on with its next one. Run one after the other at once, those
+ * it missed would send a motor all the steps of the stall in no time. */
+#define MOST_MADE_UP 10
+
 void rtapi_wait(void)
 {
     struct task *t = self;
@@ -321,6 +325,12 @@ void rtapi_wait(void)
     t->next_ns += (int64_t)t->period_ns + t->pll_ns;
     int64_t now_ns = backend->now();
     bool overrun = t->next_ns < now_ns;
+    int64_t due_ns = t->next_ns, missed = overrun ? (now_ns - due_ns) / (int64_t)t->period_ns : 0;
+    if (!backend->makes_up && missed > MOST_MADE_UP) {
+        t->next_ns += missed * (int64_t)t->period_ns;
+    } else {
+        missed = 0;
+    }
     if (overrun) {
         if (backend->warn_late) {
             warn_once(t);
@@ -336,5 +346,5 @@ void rtapi_wait(void)
         backend->leave(t);
         pthread_exit(NULL);
     }
-    lateness_count(t, now_ns, now_ns - t->next_ns, overrun);
+    lateness_count(t, now_ns, now_ns - due_ns, missed + overrun);
 }
