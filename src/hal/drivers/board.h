@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
  *
  * board.h - which board this is, and its registers. For tests, the folder KERF_BOARD_ROOT has the files (not for a
- * program that is setuid). [init]
+ * program that is setuid). In simulated time without that folder registers are memory: no pin moves. [init]
  */
 #ifndef KERF_BOARD_H
 #define KERF_BOARD_H
@@ -14,16 +14,28 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <kerf_clock.h>
 #include <rtapi.h>
 
 #define BOARD_MAP_BYTES 4096
 #define BOARD_MODEL "/proc/device-tree/model"
 
+static inline const char *board_root(void)
+{
+    return secure_getenv("KERF_BOARD_ROOT");
+}
+
+/* Any board will do: its registers are memory. */
+static inline int board_is_simulated(void)
+{
+    return kerf_clock_is_virtual() && !board_root();
+}
+
 /* Where a file of the board is; good until the next call. */
 static inline const char *board_path(const char *file)
 {
     static char path[256];
-    const char *root = secure_getenv("KERF_BOARD_ROOT");
+    const char *root = board_root();
     snprintf(path, sizeof path, "%s%s", root ? root : "", file);
     return path;
 }
@@ -43,12 +55,14 @@ static inline void board_text(const char *file, char *text, size_t size)
 /* A page of registers at an address of a device of memory, 0 or -errno. */
 static inline int board_map(const char *device, unsigned long address, volatile rtapi_u32 **registers)
 {
-    int fd = rtapi_open_as_root(board_path(device), O_RDWR | O_SYNC), err;
+    int memory = board_is_simulated(), fd = -1, err;
     void *map;
-    if(fd < 0) return fd;
-    map = mmap(NULL, BOARD_MAP_BYTES, PROT_READ | PROT_WRITE, MAP_SHARED, fd, (off_t)address);
+    if(!memory) fd = rtapi_open_as_root(board_path(device), O_RDWR | O_SYNC);
+    if(!memory && fd < 0) return fd;
+    map = mmap(NULL, BOARD_MAP_BYTES, PROT_READ | PROT_WRITE, memory ? MAP_PRIVATE | MAP_ANONYMOUS : MAP_SHARED, fd,
+               memory ? 0 : (off_t)address);
     err = errno;
-    close(fd);
+    if(fd >= 0) close(fd);
     if(map == MAP_FAILED) return -err;
     *registers = map;
     return 0;

@@ -112,6 +112,7 @@ static int mask_of(const char *name, const char *text, rtapi_u32 *mask)
 static int check_model(void)
 {
     char model[128];
+    if(board_is_simulated()) return 0;
     board_text(BOARD_MODEL, model, sizeof model);
     if(strncmp(model, "Raspberry", 9) == 0) return 0;
     rtapi_print_msg(RTAPI_MSG_ERR, TAG "unrecognized Raspberry revision: this computer is '%s' (" BOARD_MODEL
@@ -123,7 +124,10 @@ static int board_code(rtapi_u32 *code)
 {
     char line[256];
     int found = 0;
-    FILE *f = fopen(board_path("/proc/cpuinfo"), "re");
+    FILE *f;
+    *code = NEW_STYLE;
+    if(board_is_simulated()) return 0;
+    f = fopen(board_path("/proc/cpuinfo"), "re");
     while(f && !found && fgets(line, sizeof line, f)) found = sscanf(line, "Revision : %x", code) == 1;
     if(f) fclose(f);
     if(found) return 0;

@@ -27,7 +27,7 @@ chmod +x registers
 board() {
     printf 'ti,am335x-bone-black\0ti,am33xx\0' > "$KERF_BOARD_ROOT/proc/device-tree/compatible"
     rm -f "$KERF_BOARD_ROOT/dev/mem"
-    truncate -s 0x481AF000 "$KERF_BOARD_ROOT/dev/mem"
+    truncate -s $((0x481AF000)) "$KERF_BOARD_ROOT/dev/mem"
     for clock in 0x408 0xac 0xb0 0xb4; do ./registers put 9 $clock 2; done
     for port in 0 1 2 3; do ./registers put $port 0x134 0xffffffff; done
 }
@@ -69,6 +69,10 @@ codes=$(for header in 8 9; do for pin in {01..47}; do echo $header$pin; done; do
 } > t.hal
 halrun -k -f t.hal 2>&1 | grep -o 'pin p.*' | tr '\n' ' '
 echo
+echo "== in simulated time, without the files of a board, no pin moves"
+printf '%s\n' "loadrt hal_bb_gpio input_pins=807 output_pins=911" "loadrt threads name1=t period1=1000000" "addf bb_gpio.read t" "addf bb_gpio.write t" \
+    start "loadusr -w kerf-clock sleep 0.01" "getp bb_gpio.p8.in-07" > t.hal
+env -u KERF_BOARD_ROOT halrun -f t.hal 2>&1 | grep -v ^Note
 echo "== what can not be"
 for words in "" user_leds=4 input_pins=700 input_pins=-807 "input_pins=807 output_pins=807" input_pins=807,807; do
     echo "loadrt hal_bb_gpio $words" > t.hal

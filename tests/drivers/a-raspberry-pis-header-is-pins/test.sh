@@ -60,6 +60,10 @@ END
 run
 ./look
 
+echo "== in simulated time, without the files of a board, no pin moves"
+printf '%s\n' "loadrt hal_pi_gpio dir=1" "loadrt threads name1=t period1=1000000" "addf hal_pi_gpio.read t" "addf hal_pi_gpio.write t" \
+    start "loadusr -w kerf-clock sleep 0.01" "getp hal_pi_gpio.pin-05-in" > t.hal
+env -u KERF_BOARD_ROOT halrun -f t.hal 2>&1 | grep -v ^Note
 echo "== what can not be"
 for words in dir=12x exclude=0x1FFFFFFFF "dir=0 exclude=z"; do
     echo "loadrt hal_pi_gpio $words" > t.hal

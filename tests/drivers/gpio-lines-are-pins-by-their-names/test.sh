@@ -92,6 +92,11 @@ tail -1 log
 rm log
 cd "$TEST_DIR" || exit
 
+echo "== in simulated time, without chips, no line moves"
+printf '%s\n' "loadrt hal_gpio inputs=ANY outputs=OTHER reset=OTHER" "loadrt threads name1=t period1=1000000" "addf hal_gpio.read t" \
+    "addf hal_gpio.write t" "addf hal_gpio.reset t" "setp hal_gpio.OTHER-out 1" start "loadusr -w kerf-clock sleep 0.01" "getp hal_gpio.ANY-in" "getp hal_gpio.ANY-in-not" > t.hal
+env -u KERF_GPIO_CHIPS halrun -f t.hal 2>&1 | grep -v ^Note
+
 echo "== mistakes"
 for words in "" "inputs=GPIO2,NONE outputs=NONE2" "inputs=GPIO5" "inputs=GPIO2 outputs=GPIO2" "outputs=GPIO2,GPIO2" \
     "inputs=GPIO2 invert=GPIO2" "inputs=GPIO2 pullup=GPIO3" "outputs=GPIO2 opendrain=GPIO2 opensource=GPIO2" \
