@@ -5,6 +5,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
@@ -78,6 +79,22 @@ bool is_loopback(const sockaddr *address) {
     if (address->sa_family != AF_INET6) return false;
     const in6_addr &six = reinterpret_cast<const sockaddr_in6 *>(address)->sin6_addr;
     return IN6_IS_ADDR_LOOPBACK(&six) || (IN6_IS_ADDR_V4MAPPED(&six) && six.s6_addr[12] == 127);
+}
+
+void ask_when_quiet(int fd) {
+    const int on = 1, seconds = 1, questions = 10;
+    setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPIDLE, &seconds, sizeof seconds);
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPINTVL, &seconds, sizeof seconds);
+    setsockopt(fd, IPPROTO_TCP, TCP_KEEPCNT, &questions, sizeof questions);
+}
+
+bool peer_unheard(int fd) {
+    constexpr unsigned LONGEST_MS = 3000;
+    tcp_info info{};
+    socklen_t size = sizeof info;
+    return getsockopt(fd, IPPROTO_TCP, TCP_INFO, &info, &size) == 0 && info.tcpi_last_ack_recv > LONGEST_MS &&
+           info.tcpi_last_data_recv > LONGEST_MS;
 }
 
 } // namespace nml

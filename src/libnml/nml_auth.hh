@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// nml_auth.hh - passwords that never travel: the server sends a random challenge, the client
-// answers with HMAC-SHA256(password, challenge). [any]
+// nml_auth.hh - the other end of a connection. Passwords never travel: the server sends a random challenge, the
+// client answers with HMAC-SHA256(password, challenge). [any]
 #ifndef KERF_NML_AUTH_HH
 #define KERF_NML_AUTH_HH
 
@@ -31,6 +31,11 @@ bool equal_secret(const std::string &a, const std::string &b);
 
 // A peer on this computer.
 bool is_loopback(const sockaddr *address);
+
+// The system asks a quiet peer every second whether it is still there, and ends the connection after ten questions.
+void ask_when_quiet(int fd);
+// Of a connection with ask_when_quiet(): for 3 s nothing has come of the peer's computer (a cable may be pulled).
+bool peer_unheard(int fd);
 
 } // namespace nml
 #endif

@@ -353,6 +353,7 @@ void Server::accept_from(int listener, int port) {
     }
     int one = 1;
     setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    ask_when_quiet(fd);
     clients_.push_back(std::move(c));
 }
 
@@ -402,6 +403,7 @@ void Server::run(const volatile int *stop) {
                 else good = r < 0 && (errno == EAGAIN || errno == EINTR);
             }
             if (good) {
+                if (holds && holds(c.id) && peer_unheard(c.fd)) unheard(c.id);
                 kept.push_back(std::move(c));
                 continue;
             }

@@ -36,6 +36,9 @@ public:
     // Called after a client's message was written, and when that client has gone.
     std::function<void(int client, NML &channel, const NMLmsg &m)> wrote;
     std::function<void(int client)> gone;
+    // Whether a client holds what must end when its computer is not heard of for 3 s; that ends it.
+    std::function<bool(int client)> holds;
+    std::function<void(int client)> unheard;
 private:
     struct Buffer { NML *channel; BufferLine line; };
     // A read that waits for a message, until `until` (ns of wall time, negative: for ever).

@@ -38,6 +38,14 @@ static void go_into_background() {
     }
 }
 
+// A stop that nobody needs would be an error, in a running program for instance.
+static bool something_jogs(const std::string &file) {
+    NML status(emc_messages(), "emcStatus", "xemc", file.c_str());
+    if (status.peek() != EMC_STAT_TYPE) return true;
+    const EMC_STAT &s = *status.get<EMC_STAT>();
+    return s.task.state == EMC_TASK_STATE_ON && s.task.mode == EMC_TASK_MODE_MANUAL && s.motion.jogging_active;
+}
+
 int main(int argc, char **argv) {
     EmcArgs args(argc, argv);
     linuxcnc::IniFile ini;
@@ -89,17 +97,25 @@ int main(int argc, char **argv) {
             in_control.erase(client);
         } else if (m._type == EMC_JOG_STOP_TYPE) {
             const EMC_JOG_STOP &j = static_cast<const EMC_JOG_STOP &>(m);
-            for (auto &c : jogs) c.second.erase({j.joint_or_axis, j.jjogmode});
+            for (auto c = jogs.begin(); c != jogs.end();) {
+                c->second.erase({j.joint_or_axis, j.jjogmode});
+                c = c->second.empty() ? jogs.erase(c) : std::next(c);
+            }
         }
     };
-    server.gone = [&](int client) {
+    auto end_jogs = [&](int client) {
         for (auto &j : jogs[client]) {
             EMC_JOG_STOP stop_it;
             stop_it.joint_or_axis = j.first.first;
             stop_it.jjogmode = j.first.second;
-            j.second->write_raw(stop_it, false, nullptr);
+            if (something_jogs(file)) j.second->write_raw(stop_it, false, nullptr);
         }
         jogs.erase(client);
+    };
+    server.holds = [&](int client) { return jogs.count(client) != 0; };
+    server.unheard = end_jogs;
+    server.gone = [&](int client) {
+        end_jogs(client);
         if (auto it = in_control.find(client); it != in_control.end()) {
             EMC_TASK_RELEASE_CONTROL release;
             it->second->write_raw(release, false, nullptr);

@@ -16,8 +16,8 @@ from rsh import *
 seed = int(os.environ.get("SEED") or random.randrange(10**6))
 dice = random.Random(seed)
 AT_ONCE_S = 0.2
-REMOTE = ("SET JOG X 500", "SET JOG 0 500", "SET JOG_STOP X", "SET MODE MDI", "SET MDI G0 X3", "SET MODE AUTO", "SET RUN",
-          "SET MIST ON", "SET SPINDLE FORWARD", "SET PAUSE", "SET MODE MANUAL", "SET TELEOP_ENABLE OFF")
+REMOTE = ("SET JOG X 500", "SET JOG 0 500", "SET JOG_STOP X", "SET MODE MDI", "SET MDI G0 X3", "SET MODE AUTO",
+          "SET RUN", "SET MIST ON", "SET SPINDLE FORWARD", "SET PAUSE", "SET MODE MANUAL", "SET TELEOP_ENABLE OFF")
 SCREEN = (lambda: c.mode(dice.choice((MODE_MANUAL, MODE_AUTO, MODE_MDI))), lambda: c.mdi("G0 X5"),
           lambda: c.auto(AUTO_RUN, 0), lambda: c.jog(JOG_CONTINUOUS, False, 1, 5), lambda: c.jog(JOG_STOP, False, 1),
           lambda: c.teleop_enable(dice.choice((0, 1))), lambda: c.abort())

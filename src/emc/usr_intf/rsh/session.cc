@@ -498,12 +498,17 @@ void Server::run(const volatile int *stop) {
             } else if (fd >= 0) {
                 int one = 1;
                 setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+                nml::ask_when_quiet(fd);
                 sessions[fd] =
                     std::make_unique<Session>(*this, fd, nml::is_loopback(reinterpret_cast<sockaddr *>(&from)));
             }
         }
         for (auto &it : sessions) {
             Session &s = *it.second;
+            if (!s.jogs.empty() && nml::peer_unheard(s.fd)) {
+                info(s.client + " is not heard of: its jogs end");
+                s.end_jogs();
+            }
             if (s.waiting()) s.poll_waiting();
             if (!s.waiting() && !s.closing && !shutdown && s.has_line() && s.rate.take(kerf_clock_now_ns()))
                 s.next_line();

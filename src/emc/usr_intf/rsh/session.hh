@@ -63,6 +63,7 @@ public:
     void wait_for(bool done) { wait_for_done_ = done; }
     // Asked every heartbeat; watches: not yet.
     void watch(std::function<Result()> ask) { watch_ = std::move(ask); }
+    void end_jogs();
     void disable(); // also ends its jogs, which it could not end any more
     int64_t next_poll_ns() const { return next_poll_; }
 
@@ -83,7 +84,6 @@ private:
     void set(const Words &w, const std::string &line);
     void help(const Words &w);
     void finish_wait(bool good);
-    void end_jogs();
     bool telnet(unsigned char c);
     enum class Telnet { text, command, option, parameters, end_of_parameters } telnet_ = Telnet::text;
     std::function<Result()> watch_;

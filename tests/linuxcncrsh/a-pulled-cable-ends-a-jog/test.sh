@@ -1,0 +1,2 @@
+#!/bin/bash
+exec unshare -n ../../task/lib/machine-test script.py
