@@ -141,8 +141,10 @@ w.mdi.insert(0, "G0 X1 Y2 M3 S100")
 w.mdi.event_generate("<Return>")
 wait(6.0)
 print(dro()[:2], state()[2], "| typing does nothing else:", w.mdi.get())
-root.focus_force()
-key("F3")
+w.mdi.focus_force()
+w.mdi.event_generate("<F3>")        # from the entry: the next keys jog
+wait()
+print("keys go to the entry:", root.focus_get() is w.mdi)
 w.relative.set(0)
 machine = dro()[0]
 w.relative.set(1)

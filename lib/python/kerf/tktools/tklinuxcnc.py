@@ -129,8 +129,8 @@ class Window:
                       (N_("Brake off"), lambda: m.command.brake(linuxcnc.BRAKE_RELEASE))),
             "flood": ((N_("Flood on"), lambda: m.command.flood(linuxcnc.FLOOD_ON)),
                       (N_("Flood off"), lambda: m.command.flood(linuxcnc.FLOOD_OFF))),
-            "mode": ((N_("Manual"), lambda: m.mode(linuxcnc.MODE_MANUAL)),
-                     (N_("Auto"), lambda: m.mode(linuxcnc.MODE_AUTO)), ("MDI", lambda: m.mode(linuxcnc.MODE_MDI))),
+            "mode": ((N_("Manual"), lambda: self.go(linuxcnc.MODE_MANUAL)),
+                     (N_("Auto"), lambda: self.go(linuxcnc.MODE_AUTO)), ("MDI", self.go_mdi)),
         }
         for column, (name, entries) in enumerate(choices.items()):
             button = self.state_buttons[name] = ttk.Menubutton(row)
@@ -289,8 +289,8 @@ class Window:
 
     def _keys(self):
         m, root = self.m, self.root
-        anywhere = {"F1": m.toggle_estop, "F2": m.toggle_power, "F3": lambda: m.mode(linuxcnc.MODE_MANUAL),
-                    "F4": lambda: m.mode(linuxcnc.MODE_AUTO), "F5": self.go_mdi, "F6": m.command.reset_interpreter,
+        anywhere = {"F1": m.toggle_estop, "F2": m.toggle_power, "F3": lambda: self.go(linuxcnc.MODE_MANUAL),
+                    "F4": lambda: self.go(linuxcnc.MODE_AUTO), "F5": self.go_mdi, "F6": m.command.reset_interpreter,
                     "Escape": self.abort, "Alt-o": self.open, "Alt-x": self.exit,
                     "Alt-t": self.popups.tool_offset}
         for key, action in anywhere.items():
@@ -405,6 +405,11 @@ class Window:
     def toggle_world(self):
         self.world.set(not self.world.get())
         self.choose_world()
+
+    def go(self, mode):
+        """Manual or auto, whose keys do not go to the MDI entry."""
+        if self.m.mode(mode):
+            self.root.focus_set()
 
     def go_mdi(self):
         self.m.mode(linuxcnc.MODE_MDI)
