@@ -145,6 +145,15 @@ w.mdi.focus_force()
 w.mdi.event_generate("<F3>")        # from the entry: the next keys jog
 wait()
 print("keys go to the entry:", root.focus_get() is w.mdi)
+for widget, event in ((w.increments, "<<ComboboxSelected>>"), (w.text, "<ButtonPress-1>")):
+    widget.focus_force()
+    widget.event_generate(event)
+    root.update()
+    before = poll().actual_position[2]
+    w.incremental.set("1mm")
+    (root.focus_get() or root).event_generate("<KeyPress-Prior>")
+    wait(1.0)
+    print("jogs after a click there:", round(poll().actual_position[2] - before, 3))
 w.relative.set(0)
 machine = dro()[0]
 w.relative.set(1)

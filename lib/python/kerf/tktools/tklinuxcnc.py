@@ -206,6 +206,8 @@ class Window:
         self.increments = ttk.Combobox(box, textvariable=self.incremental, values=[CONTINUOUS] + m.increments,
                                        state="readonly", takefocus=False, width=14)
         self.increments.pack(fill="x", pady=px(4))
+        # its keys jog again
+        self.increments.bind("<<ComboboxSelected>>", lambda event: self.root.focus_set())
         self.scales = {}
         for name, variable, most in ((N_("Jog speed (linear)"), self.linear, m.max_linear),
                                      (N_("Jog speed (angular)"), self.angular, m.max_angular)):
@@ -297,7 +299,7 @@ class Window:
             root.bind(f"<{key}>", lambda event, a=action: self.act(a))
         root.bind("<KeyPress>", self.key_press)
         root.bind("<KeyRelease>", self.key_release)
-        root.bind("<FocusOut>", lambda event: self.stop_jog() if event.widget is root else None)
+        root.bind("<FocusOut>", lambda event: self.stop_jog())
         root.bind("<Unmap>", lambda event: self.stop_jog() if event.widget is root else None)
         self.manual_keys = {
             "F7": lambda: m.command.mist(not m.stat.mist), "F8": lambda: m.command.flood(not m.stat.flood),
@@ -322,7 +324,8 @@ class Window:
         return "break"
 
     def key_press(self, event):
-        if event.widget.winfo_class() in TYPING or event.widget.winfo_toplevel() is not self.root or event.state & 0x8C:
+        typing = event.widget.winfo_class() in TYPING and event.widget is not self.text
+        if typing or event.widget.winfo_toplevel() is not self.root or event.state & 0x8C:
             return None
         key, mode = event.keysym, self.m.stat.task_mode
         pending = self.releases.pop(key, None)
