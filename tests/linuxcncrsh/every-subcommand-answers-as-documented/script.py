@@ -84,6 +84,8 @@ for data in (b"GET ECHO\r\0GET ECHO\r\0", b"GET ECHO\n\rGET ECHO\n\r", b"\0\r\n\
     print(data, plain.say())
 plain.socket.sendall(b"SET OPEN no\xff\xffsuch.ngc\r\n")
 print("the byte 255 itself:", plain.say())
+plain.socket.sendall(b"SET MDI G0 X1\0 Y1\r\n")
+print("a byte 0 inside:", plain.say())
 print("== ends")
 show(plain, "SET MACHINE OFF", "GET MACHINE", "SET ESTOP ON", "GET ESTOP", "HELP", "HELP HELLO", "HELP NOSUCH")
 print("HELP SET:", len(plain.say("HELP SET")), "HELP GET:", len(plain.say("HELP GET")), plain.say("HELP SET")[1:4])

@@ -279,12 +279,15 @@ template <class M, class V, V M::*FIELD> void one_value(Command &c, V v) {
 }
 
 // Bytes of a str (UTF-8) or bytes object. Raises UnicodeEncodeError for what is no text.
-// errors: "surrogateescape" for names of files, which may have any bytes.
+// errors: "surrogateescape" for names of files, which may have any bytes but 0, which would end the message's text.
 std::string text_of(const py::handle &o, const char *errors = "strict") {
-    if (py::isinstance<py::bytes>(o)) return o.cast<std::string>();
-    const auto bytes = py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(o.ptr(), "utf-8", errors));
+    py::object bytes = py::reinterpret_borrow<py::object>(o);
+    if (!py::isinstance<py::bytes>(o))
+        bytes = py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(o.ptr(), "utf-8", errors));
     if (!bytes) throw py::error_already_set();
-    return bytes.cast<std::string>();
+    std::string text = bytes.cast<std::string>();
+    if (text.find('\0') != std::string::npos) throw py::value_error("embedded null character");
+    return text;
 }
 
 void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {

@@ -162,6 +162,7 @@ void Session::next_line() {
     std::string line = lines_.front();
     lines_.pop_front();
     if (line.size() > MAX_LINE) return error("Line too long, " + std::to_string(MAX_LINE) + " characters at most");
+    if (line.find('\0') != std::string::npos) return error("Line with a byte 0"); // which would end it for task
     Words w = split(line);
     if (w.empty()) return;
     std::string command = upper(w[0]);
