@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A linuxcncrsh of its own for a test, and conversations with it (in virtual time)."""
+import os
 import socket
 
 from kerf import clock
@@ -80,4 +81,4 @@ def show(client, *lines):
     for line in lines:
         print(f"> {line[:60]}")
         for reply in client.say(line):
-            print(reply)
+            print(reply.replace(os.getcwd(), "HERE"))

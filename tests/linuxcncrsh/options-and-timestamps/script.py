@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 import hashlib
 import hmac
+import os
 import re
 import subprocess
 import sys
@@ -76,6 +77,21 @@ again = clock.run(["linuxcncrsh", "-q", "-p", str(six.port), "--", "-ini", "mill
 print("port taken:", again.returncode, str(six.port) in again.stderr)
 print(clock.run(["linuxcncrsh", "--", "-ini", "none.ini"], stderr=subprocess.DEVNULL).returncode,
       six.stop(), server.stop())
+
+# A file is that of the folder in which linuxcncrsh works, also when task works in another one.
+Path("apart").mkdir()
+Path("apart/part.ngc").write_text("M2\n")
+Path("part.ngc").write_text("G0 X1\nM2\n")
+here = os.getcwd()
+os.chdir("apart")
+apart = Server(ini="../mill.ini")
+os.chdir(here)
+on()
+p = Client(apart)
+p.say("SET MODE AUTO")
+print("its own folder:", p.say("SET OPEN part.ngc", "GET OPEN"), p.say("GET PROGRAM")[0].endswith("/apart/part.ngc"),
+      apart.stop())
+c.state(STATE_ESTOP)
 
 # Other addresses: only with passwords of one's own, which do not travel.
 done = clock.run(["linuxcncrsh", "-q", "-p", str(free_port()), "-b", "*", "--", "-ini", "mill.ini"],

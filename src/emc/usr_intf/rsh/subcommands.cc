@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <unordered_map>
 
 #include "kerf_clock.h"
@@ -156,16 +157,18 @@ std::string find_file(Server &v, const std::string &name) {
     return access(name.c_str(), R_OK) == 0 ? name : "";
 }
 
-bool need_file(Session &s, Server &v, const std::string &name, std::string *full) {
+// found: its name in the search path; full: the same for task, which works in another folder.
+bool need_file(Session &s, Server &v, const std::string &name, std::string *found, std::string *full) {
     if (name.empty()) {
         s.error("Empty filename");
         return false;
     }
-    *full = find_file(v, name);
-    if (full->empty()) {
+    *found = find_file(v, name);
+    if (found->empty()) {
         s.error("File '" + name + "' not found");
         return false;
     }
+    *full = std::filesystem::absolute(*found).lexically_normal();
     if (full->size() >= LINELEN) {
         s.error("Filename too long, 254 characters at most");
         return false;
@@ -649,8 +652,8 @@ void machine_subcommands(Table &table) {
                          return Result::done;
                      }});
     table.push_back({"LOAD_TOOL_TABLE", Level::on, true, 0, 1, "file", nullptr, [](S s, V v, A, R rest) {
-                         std::string full;
-                         if (!need_file(s, v, rest, &full)) return Result::failed;
+                         std::string found, full;
+                         if (!need_file(s, v, rest, &found, &full)) return Result::failed;
                          EMC_TOOL_LOAD_TOOL_TABLE m;
                          copy_text(m.file, full.c_str());
                          return give(v, m);
@@ -682,11 +685,11 @@ void machine_subcommands(Table &table) {
     table.push_back({"OPEN", Level::on, true, 0, 1, "file",
                      [](S s, V, A) { return say(s, "OPEN " + (s.opened.empty() ? std::string("NONE") : s.opened)); },
                      [](S s, V v, A, R rest) {
-                         std::string full;
-                         if (!need_file(s, v, rest, &full)) return Result::failed;
+                         std::string found, full;
+                         if (!need_file(s, v, rest, &found, &full)) return Result::failed;
                          EMC_TASK_PLAN_OPEN m;
                          copy_text(m.file, full.c_str());
-                         s.opened = full;
+                         s.opened = found;
                          return give(v, m);
                      }});
     table.push_back({"OPTIONAL_STOP", Level::on, true, 0, 1, "{on|off}",
