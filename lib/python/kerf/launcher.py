@@ -534,15 +534,20 @@ class Session:
             self.look_at_watched(ends, descriptors)      # a screen may crash because the machine did
             print(f"{command[0]} is started again, the machine goes on", file=sys.stderr, flush=True)
 
+    def let_pins_of_the_dead_fall(self):
+        """Whoever uses HAL next takes the pins of ended processes away; their bits fall."""
+        clock.resume()
+        self.run("halcmd", "-s", "show", "comp", quiet=True)
+        clock.suspend()
+
     def start_display(self, command, crash):
         """crash: how the screen before ended, None: there was none."""
         self.trace(command)
         env = self.env | {SESSION + DISPLAY_PART: self.id, VARIABLE: self.restarts.path}
         if crash:
             env[CRASH] = crash
+            self.let_pins_of_the_dead_fall()
             clock.resume()
-            # whoever uses HAL next takes the pins of the dead away; bits fall
-            self.run("halcmd", "-s", "show", "comp", quiet=True)
             parts = set(self.restarts.left().get("parts", ()))
             end([p for p in session_processes(self.id, DISPLAY_PART) if p in parts])
         try:
@@ -561,6 +566,7 @@ class Session:
                 self.task_died |= pid == self.task_pid
                 raise Died(f"{name} (process {pid}) died unexpectedly; stopping everything")
             lost = "remote clients are cut off" if name == "linuxcncsvr" else "what it did is no longer done"
+            self.let_pins_of_the_dead_fall()
             self.tell_operator(f"{name} (process {pid}) died: {lost}, the machine goes on")
             del self.watched[pid]
             if pid in descriptors:

@@ -107,7 +107,8 @@ for pin in HELD:
     hal.connect("halui." + pin, pin)
 put("axis.jog-speed", 600)
 sleep(0.3)
-print("goes on:", poll().interp_state != INTERP_IDLE, s.task_paused, spindle(), s.mist, s.feedrate, messages())
+print("goes on:", poll().interp_state != INTERP_IDLE, s.task_paused, spindle(), s.mist, s.feedrate,
+      [m for m in messages() if "died" not in m])
 me["feed-override.counts"] = 501
 sleep(0.1)
 print("the next count counts:", poll().feedrate)

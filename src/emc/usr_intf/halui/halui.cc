@@ -28,6 +28,7 @@ namespace {
 constexpr int64_t PERIOD_NS = 20'000'000;
 constexpr double RECEIVE_TIMEOUT_S = 10.0, POLL_S = 0.005;
 constexpr double CONNECT_PATIENCE_S = 10.0;
+constexpr int64_t WRITERS_NS = 100'000'000; // between two looks at who drives the pins of jogs
 constexpr size_t MAX_MDI = 64;
 const char AXES[] = "xyzabcuvw";
 
@@ -91,6 +92,20 @@ struct RealOut {
     hal_float_t **pin = nullptr; // null: the axis is not configured
     void set(double v) const { **pin = v; }
 };
+
+// Whether a pin is linked to a signal that something drives.
+bool has_writer(const std::string &pin) {
+    auto signal = [](hal_query_t *p, void *) {
+        hal_query_t s{};
+        s.name = p->pp.signal;
+        s.qtype = HAL_QTYPE_SIGNAL;
+        return s.name && hal_get_s(&s, nullptr, nullptr) == 0 && s.sig.writers + s.sig.bidirs > 0 ? 1 : 0;
+    };
+    hal_query_t p{};
+    p.name = pin.c_str();
+    p.qtype = HAL_QTYPE_PIN;
+    return hal_get_p(&p, signal, nullptr) == 1;
+}
 
 class Pins {
 public:
@@ -190,7 +205,10 @@ struct Jog {
     double way = 0;        // of the continuous jog that these pins hold: its speed is way * jog-speed; 0 none
     uint64_t began = 0;    // servo cycle of its last command
     bool centred = false;  // analog was in the dead band since it last could not jog
-    void create(Pins &p, const std::string &name, bool with_analog) {
+    std::string name, holder; // holder: the pin that holds the jog
+    bool driven = false;      // its signal had a writer
+    void create(Pins &p, const std::string &prefix, bool with_analog) {
+        name = prefix;
         plus = p.in_bit("%s.plus", name.c_str());
         minus = p.in_bit("%s.minus", name.c_str());
         has_analog = with_analog;
@@ -238,8 +256,9 @@ private:
         return stat_.task.state == EMC_TASK_STATE_ON && stat_.task.mode == EMC_TASK_MODE_MANUAL;
     }
     void jogs();
-    void hold(Jog &j, int n, double way, double speed, bool joints);
+    void hold(Jog &j, int n, const char *pin, double way, double speed, bool joints);
     void let_go(Jog &j, int n, bool joints);
+    void let_go_undriven();
     bool ended(const Jog &j) const;
     void jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, Real &speed, Real &deadband, bool joints,
                    std::vector<Bit> &select, std::vector<hal_bit_t **> &lamps, const std::vector<int> &present);
@@ -335,6 +354,7 @@ private:
     std::vector<RealOut> pos_commanded_, pos_feedback_, pos_relative_, tool_offset_;
     hal_float_t **tool_diameter_;
     int remembered_mode_ = 0; // while MDI commands run
+    int64_t writers_due_ = 0;
 };
 
 bool Halui::read_ini(const std::string &file) {
@@ -590,12 +610,38 @@ void Halui::commands() {
     if (selected_unhome_.rose()) unhome(static_cast<int>(**joint_selected_));
 }
 
-void Halui::hold(Jog &j, int n, double way, double speed, bool joints) {
+void Halui::hold(Jog &j, int n, const char *pin, double way, double speed, bool joints) {
+    if (pin) {
+        j.holder = j.name + pin;
+        j.driven = has_writer(j.holder);
+    }
     if (!std::isfinite(way * speed)) jog_stop(n, joints); // task refuses the new speed and says why
     jog_cont(n, speed * way, joints);
     refresh();
     j.way = way;
     j.began = stat_.motion.heartbeat;
+}
+
+// A panel whose program has ended, or was killed, can not let go of its buttons.
+void Halui::let_go_undriven() {
+    if (kerf_clock_now_ns() < writers_due_) return;
+    writers_due_ = kerf_clock_now_ns() + WRITERS_NS;
+    bool looked = false;
+    auto look = [&](Jog &j, int n, bool joints) {
+        if (j.way == 0 || !j.driven) return;
+        if (!looked) { // takes away what killed processes left in HAL
+            hal_query_t q{};
+            hal_list_comp(&q, [](hal_query_t *, void *) { return 1; }, nullptr);
+            looked = true;
+        }
+        if (has_writer(j.holder)) return;
+        let_go(j, n, joints);
+        j.centred = false;
+    };
+    for (size_t n = 0; n < joint_jog_.size(); n++) look(joint_jog_[n], static_cast<int>(n), true);
+    for (size_t n = 0; n < axis_jog_.size(); n++) look(axis_jog_[n], static_cast<int>(n), false);
+    look(joint_selected_jog_, static_cast<int>(**joint_selected_), true);
+    look(axis_selected_jog_, static_cast<int>(**axis_selected_), false);
 }
 
 void Halui::let_go(Jog &j, int n, bool joints) {
@@ -632,7 +678,7 @@ void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, 
         if (selected.way != 0) { // the button stays down: the jog goes over to the new one
             for (int k : present)
                 if (k != n && all[static_cast<size_t>(k)].way == 0) jog_stop(k, joints);
-            if (n != current) hold(selected, n, selected.way, speed.now(), joints);
+            if (n != current) hold(selected, n, nullptr, selected.way, speed.now(), joints);
         }
         current = n;
     }
@@ -645,17 +691,17 @@ void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, 
             if (j.analog.relinked()) j.centred = false;
             const double before = j.analog.old;
             turned = j.analog.changed();
-            moves = std::fabs(j.analog.now()) > deadband.now();
+            moves = j.analog.now() != 0 && std::fabs(j.analog.now()) > deadband.now();
             if (!active) j.centred = false;
             if (!moves || before * j.analog.now() < 0) j.centred = true;
         }
         if (!active) return;
-        if (plus > 0 && minus <= 0) hold(j, n, 1, speed.now(), joints);
-        else if (minus > 0 && plus <= 0) hold(j, n, -1, speed.now(), joints);
+        if (plus > 0 && minus <= 0) hold(j, n, ".plus", 1, speed.now(), joints);
+        else if (minus > 0 && plus <= 0) hold(j, n, ".minus", -1, speed.now(), joints);
         else if (plus != 0 || minus != 0) let_go(j, n, joints);
-        else if (turned && moves && j.centred) hold(j, n, j.analog.now(), speed.now(), joints);
+        else if (turned && moves && j.centred) hold(j, n, ".analog", j.analog.now(), speed.now(), joints);
         else if (turned && !moves) let_go(j, n, joints);
-        else if (faster && j.way != 0) hold(j, n, j.way, speed.now(), joints);
+        else if (faster && j.way != 0) hold(j, n, nullptr, j.way, speed.now(), joints);
         if (inc_plus > 0 && inc_minus <= 0) jog_incr(n, j.increment.now(), speed.now(), joints);
         if (inc_minus > 0 && inc_plus <= 0) jog_incr(n, -j.increment.now(), speed.now(), joints);
     };
@@ -664,6 +710,7 @@ void Halui::jog_group(std::vector<Jog> &all, Jog &selected, hal_u32_t **number, 
 }
 
 void Halui::jogs() {
+    let_go_undriven();
     std::vector<int> joints, axes;
     for (int n = 0; n < joints_; n++) joints.push_back(n);
     for (int i = 0; i < EMCMOT_MAX_AXIS; i++)
