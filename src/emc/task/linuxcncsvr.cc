@@ -87,20 +87,27 @@ int main(int argc, char **argv) {
     // A client that has gone holds no jog and no control.
     std::map<int, NML *> in_control;
     std::map<int, std::map<std::pair<int, int>, NML *>> jogs; // of a client: (number, mode)
+    auto nobody_jogs = [&](int nr, int jjogmode) { // a jog belongs to the client that began it last
+        for (auto c = jogs.begin(); c != jogs.end();) {
+            c->second.erase({nr, jjogmode});
+            c = c->second.empty() ? jogs.erase(c) : std::next(c);
+        }
+    };
     server.wrote = [&](int client, NML &channel, const NMLmsg &m) {
         if (m._type == EMC_JOG_CONT_TYPE) {
             const EMC_JOG_CONT &j = static_cast<const EMC_JOG_CONT &>(m);
+            nobody_jogs(j.joint_or_axis, j.jjogmode);
             jogs[client][{j.joint_or_axis, j.jjogmode}] = &channel;
+        } else if (m._type == EMC_JOG_INCR_TYPE) {
+            const EMC_JOG_INCR &j = static_cast<const EMC_JOG_INCR &>(m);
+            nobody_jogs(j.joint_or_axis, j.jjogmode);
         } else if (m._type == EMC_TASK_TAKE_CONTROL_TYPE) {
             in_control[client] = &channel;
         } else if (m._type == EMC_TASK_RELEASE_CONTROL_TYPE) {
             in_control.erase(client);
         } else if (m._type == EMC_JOG_STOP_TYPE) {
             const EMC_JOG_STOP &j = static_cast<const EMC_JOG_STOP &>(m);
-            for (auto c = jogs.begin(); c != jogs.end();) {
-                c->second.erase({j.joint_or_axis, j.jjogmode});
-                c = c->second.empty() ? jogs.erase(c) : std::next(c);
-            }
+            nobody_jogs(j.joint_or_axis, j.jjogmode);
         }
     };
     auto end_jogs = [&](int client) {

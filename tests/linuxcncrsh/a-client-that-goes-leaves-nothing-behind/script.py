@@ -20,6 +20,12 @@ for how in (lambda: b.say("SET DISABLE " + number), lambda: d.say("SET ENABLE OF
     d.say("HELLO EMC d", "SET ENABLE EMCTOO", "SET WAIT_MODE RECEIVED", "SET JOG 0 600")
     need(lambda s: s.joint[0]["velocity"] > 9, "jog")
     print(how(), until(lambda s: s.joint[0]["velocity"] == 0, 1), messages())
+print("== a jog that another client has taken over goes on")
+d.say("HELLO EMC d", "SET ENABLE EMCTOO", "SET WAIT_MODE RECEIVED", "SET JOG 0 -300")
+b.say("SET WAIT_MODE RECEIVED", "SET JOG 0 -400")
+d.say("SET ENABLE OFF")
+sleep(0.3)
+print(round(poll().joint[0]["velocity"], 1), b.say("SET JOG_STOP 0", "SET WAIT_MODE DONE"))
 print("== one that jogged before leaves a program alone when it goes")
 print(d.say("HELLO EMC d", "SET ENABLE EMCTOO", "SET ECHO OFF", "SET WAIT_MODE RECEIVED", "SET JOG 0 -600",
             "SET ABORT"))

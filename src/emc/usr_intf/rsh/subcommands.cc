@@ -197,6 +197,12 @@ bool jog_target(Session &s, Server &v, const std::string &w, int *nr, int *jjogm
     return teleop;
 }
 
+// A jog belongs to the connection that began it last; steps and stops belong to nobody.
+void jog_is_of(Session *owner, Server &v, int nr, int jjogmode) {
+    for (auto &s : v.sessions) s.second->jogs.erase({nr, jjogmode});
+    if (owner) owner->jogs.emplace(nr, jjogmode);
+}
+
 template <class F> Result for_spindles(Session &s, Server &v, const Words &a, size_t at, F f) {
     int n = 0;
     if (a.size() > at && !need_spindle(s, v, a[at], &n)) return Result::failed;
@@ -563,7 +569,7 @@ void machine_subcommands(Table &table) {
                          if (!jog_target(s, v, a[0], &m.joint_or_axis, &m.jjogmode) || !real(a[1], &speed))
                              return Result::failed;
                          m.vel = speed / 60;
-                         s.jogs.emplace(m.joint_or_axis, m.jjogmode);
+                         jog_is_of(&s, v, m.joint_or_axis, m.jjogmode);
                          return give(v, m);
                      }});
     table.push_back({"JOG_INCR", Level::on, true, 0, 3, "joint|axis speed increment", nullptr, [](S s, V v, A a, R) {
@@ -573,12 +579,13 @@ void machine_subcommands(Table &table) {
                              !real(a[2], &m.incr))
                              return Result::failed;
                          m.vel = speed / 60;
+                         jog_is_of(nullptr, v, m.joint_or_axis, m.jjogmode);
                          return give(v, m);
                      }});
     table.push_back({"JOG_STOP", Level::on, true, 0, 1, "joint|axis", nullptr, [](S s, V v, A a, R) {
                          EMC_JOG_STOP m;
                          if (!jog_target(s, v, a[0], &m.joint_or_axis, &m.jjogmode)) return Result::failed;
-                         s.jogs.erase({m.joint_or_axis, m.jjogmode});
+                         jog_is_of(nullptr, v, m.joint_or_axis, m.jjogmode);
                          return give(v, m);
                      }});
     table.push_back({"JOINT_FAULT", Level::on, false, 0, 0, "[joint]",
