@@ -96,6 +96,8 @@ rtapi_realtime_type_t host_realtime_type(void);
 const char *host_realtime_name(rtapi_realtime_type_t type);
 /* Further findings, one line each, on stderr (for `check_rt`). */
 void host_realtime_report(void);
+/* What makes realtime late on this computer, and how to change it, on stderr; nothing when all is well. [init] */
+void host_realtime_advice(void);
 /* Takes over the real user's rights where root's are not needed. 0, or an exit
  * status after a message. */
 int host_privileges_init(void);

@@ -416,6 +416,7 @@ static void daemon_main(int listener)
     host_io_setup();
     if (realtime) {
         host_realtime_setup();
+        host_realtime_advice();
     }
     host_messages_start();
     int removed = remove_stale();

@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <malloc.h>
 #include <pwd.h>
 #include <sched.h>
@@ -224,13 +225,23 @@ static void read_line(const char *path, char *buf, size_t size)
     }
 }
 
+/* A file of the kernel's about its CPUs. Tests put a folder in its place, which a program with more rights than its
+ * user does not look at. */
+static void read_cpu_file(const char *name, char *buf, size_t size)
+{
+    char path[PATH_MAX];
+    const char *top = secure_getenv("KERF_SYSFS");
+    snprintf(path, sizeof path, "%s/devices/system/cpu/%s", top ? top : "/sys", name);
+    read_line(path, buf, size);
+}
+
 void host_realtime_report(void)
 {
     struct utsname kernel;
     struct rlimit memlock;
     char isolated[128], governor[64], sysrt[16], runtime[32], lockdown[128];
-    read_line("/sys/devices/system/cpu/isolated", isolated, sizeof isolated);
-    read_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", governor, sizeof governor);
+    read_cpu_file("isolated", isolated, sizeof isolated);
+    read_cpu_file("cpu0/cpufreq/scaling_governor", governor, sizeof governor);
     read_line("/sys/kernel/realtime", sysrt, sizeof sysrt);
     read_line("/proc/sys/kernel/sched_rt_runtime_us", runtime, sizeof runtime);
     read_line("/sys/kernel/security/lockdown", lockdown, sizeof lockdown);
@@ -257,9 +268,27 @@ void host_realtime_report(void)
     if (lockdown[0] && !strstr(lockdown, "[none]")) {
         fprintf(stderr, "kernel lockdown: %s (I/O ports are not accessible)\n", lockdown);
     }
+    host_realtime_advice();
 }
 
 /* ---- CPU ---------------------------------------------------------------- */
+
+/* Is n in a list like "1,4-6"? */
+static bool in_list(const char *list, int n)
+{
+    for (const char *p = list; *p; p += *p == ',') {
+        char *end;
+        long first = strtol(p, &end, 10), last = *end == '-' ? strtol(end + 1, &end, 10) : first;
+        if (end == p) {
+            return false;
+        }
+        if (n >= first && n <= last) {
+            return true;
+        }
+        p = end;
+    }
+    return false;
+}
 
 /* Highest number in a list like "1,4-6"; -1 for an empty one. */
 static int highest_cpu(const char *list)
@@ -295,13 +324,47 @@ int host_cpu(void)
         }
         return (int)n;
     }
-    read_line("/sys/devices/system/cpu/isolated", list, sizeof list);
+    read_cpu_file("isolated", list, sizeof list);
     int cpu = highest_cpu(list);
     if (cpu < 0) {
         rtapi_print_msg(RTAPI_MSG_ERR,
                         "No isolated CPU's found, expect some latency or set RTAPI_CPU_NUMBER to select CPU\n");
     }
     return cpu;
+}
+
+void host_realtime_advice(void)
+{
+    char isolated[256], governor[64], name[64];
+    const char *env = getenv("RTAPI_CPU_NUMBER");
+    long cpus = sysconf(_SC_NPROCESSORS_ONLN);
+    read_cpu_file("isolated", isolated, sizeof isolated);
+    int cpu = env && *env ? atoi(env) : highest_cpu(isolated);
+    for (int n = 0; n < cpus; n++) {
+        if (cpu >= 0 && n != cpu) {
+            continue;
+        }
+        snprintf(name, sizeof name, "cpu%d/cpufreq/scaling_governor", n);
+        read_cpu_file(name, governor, sizeof governor);
+        if (governor[0] && strcmp(governor, "performance") != 0) {
+            fprintf(stderr,
+                    "Note: CPU %d changes its speed under way (frequency governor '%s'), which makes realtime late\n"
+                    "  Fix: sudo cpupower frequency-set -g performance (Debian: package linux-cpupower), at every start\n",
+                    n, governor);
+            break;
+        }
+    }
+    if (cpus > 1 && !in_list(isolated, cpu)) {
+        char which[32] = "no CPU is";
+        if (cpu >= 0) {
+            snprintf(which, sizeof which, "CPU %d is not", cpu);
+        }
+        fprintf(stderr,
+                "Note: %s kept free of other work for realtime\n"
+                "  Fix: add isolcpus=%d to the kernel's command line: GRUB_CMDLINE_LINUX in /etc/default/grub, then\n"
+                "  Fix: sudo update-grub; on a Raspberry Pi in cmdline.txt of the boot partition\n",
+                which, cpu >= 0 ? cpu : (int)cpus - 1);
+    }
 }
 
 /* ---- Memory, limits, latency -------------------------------------------- */
