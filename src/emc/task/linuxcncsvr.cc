@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -16,6 +17,7 @@
 #include "kerf_clock.h"
 #include "messages.hh"
 #include "nml_server.hh"
+#include "nml_transport.hh"
 #include "rcs_print.hh"
 
 static volatile int stop = 0;
@@ -39,10 +41,13 @@ static void go_into_background() {
 }
 
 // A stop that nobody needs would be an error, in a running program for instance.
-static bool something_jogs(const std::string &file) {
-    NML status(emc_messages(), "emcStatus", "xemc", file.c_str());
-    if (status.peek() != EMC_STAT_TYPE) return true;
-    const EMC_STAT &s = *status.get<EMC_STAT>();
+static bool something_jogs(const std::vector<std::unique_ptr<NML>> &channels) {
+    auto status = std::find_if(channels.begin(), channels.end(),
+                               [](const auto &c) { return c->buffer_name() == "emcStatus"; });
+    if (status == channels.end()) return true;
+    (*status)->transport()->set_last_id(0); // whatever the clients have read
+    if ((*status)->peek() != EMC_STAT_TYPE) return true;
+    const EMC_STAT &s = *(*status)->get<EMC_STAT>();
     return s.task.state == EMC_TASK_STATE_ON && s.task.mode == EMC_TASK_MODE_MANUAL && s.motion.jogging_active;
 }
 
@@ -115,7 +120,7 @@ int main(int argc, char **argv) {
             EMC_JOG_STOP stop_it;
             stop_it.joint_or_axis = j.first.first;
             stop_it.jjogmode = j.first.second;
-            if (something_jogs(file)) j.second->write_raw(stop_it, false, nullptr);
+            if (something_jogs(channels)) j.second->write_raw(stop_it, false, nullptr);
         }
         jogs.erase(client);
     };
