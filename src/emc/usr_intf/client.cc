@@ -57,8 +57,13 @@ EmcClient::Answer EmcClient::look() {
     return Answer::received;
 }
 
+static int64_t deadline(double timeout_s) {
+    constexpr double FOR_EVER_S = 1e9; // what is longer has no place in ns
+    return kerf_clock_now_ns() + static_cast<int64_t>(std::min(timeout_s, FOR_EVER_S) * 1e9);
+}
+
 bool EmcClient::wait_received(double timeout_s, double poll_s) {
-    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout_s * 1e9);
+    const int64_t until = deadline(timeout_s);
     for (;;) {
         if (look() != Answer::none) return true;
         int64_t now = kerf_clock_now_ns(), nap = static_cast<int64_t>(poll_s * 1e9);
@@ -71,7 +76,7 @@ bool EmcClient::wait_received(double timeout_s, double poll_s) {
 }
 
 int EmcClient::wait_done(double timeout_s, double poll_s) {
-    int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(timeout_s * 1e9);
+    const int64_t until = deadline(timeout_s);
     for (;;) {
         Answer a = look();
         if (a == Answer::done) return RCS_DONE;

@@ -29,6 +29,7 @@ show {emc_mode mdi} {emc_mdi G0 X25.4 Y0} {format %.3f [emc_abs_act_pos X]} {emc
 show {emc_mdi G92 X0} {format %.3f [emc_rel_act_pos X]} {format %.3f [emc_pos_offset X]} {emc_mdi G92.1} {emc_mdi T1 M6} {emc_mdi G43} emc_tool emc_tool_offset {emc_tool_offset X} {emc_rel_act_pos Z} {emc_mdi G49} {emc_set_tool_offset 1 30 8} {emc_load_tool_table mill.tbl}
 show emc_program_codes {emc_mdi (MSG,hello there)} emc_operator_display emc_operator_display {emc_mdi G1 F0 X1} emc_error emc_error emc_operator_text {emc_mdi [string repeat X 300]}
 show emc_task_command emc_task_command_status {expr {[emc_task_command_number] > 10}} emc_io_command_status emc_motion_command_status
+show {emc_set_timeout inf} {emc_mdi G4 P0.1} {emc_set_timeout 0}
 show {emc_probe_move 1 2 -1} emc_probe_tripped emc_probe_value {emc_probed_pos X} emc_probe_clear
 set f [open t.ngc w]; puts $f "G21 G0 X1\nG0 X2\nG4 P0.2\nM2"; close $f
 show {emc_open [string repeat n 300]} {emc_load_tool_table [string repeat n 300]} {emc_joint_load_comp 0 [string repeat n 300] 0}
