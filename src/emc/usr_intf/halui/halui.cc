@@ -582,7 +582,12 @@ void Halui::commands() {
         const bool start = s.start.rose(), forward = s.forward.rose(), reverse = s.reverse.rose();
         if (s.stop.rose()) { EMC_SPINDLE_OFF m; m.spindle = n; give(m); }
         else if ((start || forward) != reverse) spindle_start(n, reverse ? -1 : 1);
-        auto constant = [&] { EMC_SPINDLE_CONSTANT m; m.spindle = n; give(m); };
+        auto constant = [&] {
+            if (stat_.task.state != EMC_TASK_STATE_ON) return; // no speed changes any more
+            EMC_SPINDLE_CONSTANT m;
+            m.spindle = n;
+            give(m);
+        };
         if (int e = s.increase.edge()) {
             if (e > 0) {
                 EMC_SPINDLE_INCREASE m;
