@@ -10,6 +10,8 @@ KERF_SCALE=1 to 3 (else what AXIS remembers, else from the screen).
 """
 
 import configparser
+import contextlib
+import functools
 import os
 import signal
 import sys
@@ -266,18 +268,53 @@ def open_display(program, class_name):
                       "+")
 
     def trouble(kind, value, place):
-        """An interrupt (halcmd unload, Control-C, a closed terminal) ends the program; other
-        errors are told and it goes on."""
+        """Errors are told and the program goes on. What was under way when an interrupt ended the window misses it."""
         if kind is KeyboardInterrupt:
             root.at_interrupt()
+        if root.interrupted or kind is KeyboardInterrupt:
             return
         text = "".join(traceback.format_exception(kind, value, place))
         print(f"{text}{program}: report: {recorder.write(text)}", file=sys.stderr)
     root.report_callback_exception = trouble
-    if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:       # the terminal is closed; nohup ignores it
-        signal.signal(signal.SIGHUP, signal.default_int_handler)
     root.at_interrupt = root.destroy
+    hear_signals(root)
     return root
+
+
+def hear_signals(root):
+    """Interrupts (halcmd unload, Control-C, a closed terminal) call at_interrupt() at once, also while a message box
+    waits. Tk knows nothing of Python's signals: a pipe wakes it."""
+    root.interrupted = False
+
+    def end():
+        root.at_interrupt()
+
+    def interrupted(*_signal):
+        if not root.interrupted:
+            root.interrupted = True
+            with contextlib.suppress(tk.TclError):
+                root.after(0, end)
+                return
+        raise KeyboardInterrupt         # the window is gone, or something takes long
+
+    def drain(heard, _mask):
+        with contextlib.suppress(BlockingIOError):
+            os.read(heard, 4096)
+    if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:       # nohup ignores it
+        signal.signal(signal.SIGHUP, signal.default_int_handler)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.default_int_handler:
+            signal.signal(number, interrupted)
+    heard = wake_up_pipe()
+    root.createfilehandler(heard, tk.READABLE, drain)
+
+
+@functools.cache
+def wake_up_pipe():
+    """Becomes readable with each signal that Python handles."""
+    heard, wake = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+    signal.set_wakeup_fd(wake, warn_on_full_buffer=False)
+    return heard
 
 
 def run(root, close):

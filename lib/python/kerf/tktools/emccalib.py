@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """emccalib: tuning of a running machine."""
 
+import contextlib
 import os
 import sys
+import tkinter as tk
 from pathlib import Path
 from tkinter import messagebox, ttk
 
@@ -178,8 +180,9 @@ def main(arguments):
         model = Calibration(Path(ini))
     except NotPossible as error:
         root.withdraw()
-        messagebox.showerror(TITLE, str(error))
         print(f"emccalib: {error}", file=sys.stderr)
+        with contextlib.suppress(tk.TclError):      # ended while the box was there
+            messagebox.showerror(TITLE, str(error))
         return 1
     if not model.sections:
         tkstyle.apply(root)
@@ -187,7 +190,8 @@ def main(arguments):
         text = (_("No HAL file of this machine sets a pin from a section for tuning:\n    setp PIN "
                   "[SECTION]NAME\nSections: %s") % (', '.join(SUPPORTED),))
         print(f"emccalib: {ini}: {text}", file=sys.stderr)
-        messagebox.showinfo(TITLE, text)
+        with contextlib.suppress(tk.TclError):
+            messagebox.showinfo(TITLE, text)
         return 1
     Window(root, model)
     root.mainloop()

@@ -184,6 +184,7 @@ def main(_arguments):
     try:
         if os.environ.get("DISPLAY"):
             Window(tkstyle.open_display(NAME, "AxisToolChanger"), exchange).run()
+            return 0
         while True:
             exchange.step()
             clock.sleep(POLL_S)
