@@ -9,7 +9,8 @@ from mill import *
 
 me = hal.component("panel")
 HELD = "machine.off", "spindle.0.start", "program.pause", "mist.on", "axis.x.plus", "feed-override.counts"
-for name in HELD:
+EMERGENCY = "estop.activate"
+for name in *HELD, EMERGENCY:
     me.newpin(name, hal.HAL_S32 if name.endswith("counts") else hal.HAL_BIT, hal.HAL_OUT)
 me.ready()
 
@@ -100,11 +101,17 @@ os.kill(int(line.split()[3]), signal.SIGKILL)
 sleep(1)
 messages()
 clock.run(["halcmd", "loadusr", "-Wn", "halui", "halui", "-ini", "mill.ini"], stderr=subprocess.DEVNULL)
-for pin in HELD:
+
+
+def link(pin):
     me[pin] = 500 if pin.endswith("counts") else 1
     hal.new_sig(pin, hal.HAL_S32 if pin.endswith("counts") else hal.HAL_BIT)
     hal.connect("panel." + pin, pin)
     hal.connect("halui." + pin, pin)
+
+
+for pin in HELD:
+    link(pin)
 put("axis.jog-speed", 600)
 sleep(0.3)
 print("goes on:", poll().interp_state != INTERP_IDLE, s.task_paused, spindle(), s.mist, s.feedrate,
@@ -122,3 +129,5 @@ mode(MODE_MANUAL)
 put("axis.jog-speed", 500)
 sleep(0.3)
 print("nothing moves:", poll().inpos, [s.axis[n]["velocity"] for n in range(3)])
+link(EMERGENCY)
+print("an emergency stop that is linked acts:", until(lambda s: s.task_state == STATE_ESTOP, 1))

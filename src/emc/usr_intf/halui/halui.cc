@@ -68,6 +68,11 @@ struct Bit : Input<bool> {
         return e;
     }
     bool rose() { return edge() > 0; }
+    // Also TRUE when the pin is linked to a signal that is: of an emergency stop, however it comes.
+    bool rose_or_came() {
+        const bool linked = relinked();
+        return rose() || (linked && now());
+    }
 };
 
 struct Real : Input<double> {
@@ -524,7 +529,7 @@ bool Halui::create() {
 
 // Of two buttons at once the one that stops acts.
 void Halui::commands() {
-    const bool on = on_.rose(), off = off_.rose(), activate = estop_activate_.rose(), reset = estop_reset_.rose();
+    const bool on = on_.rose(), off = off_.rose(), activate = estop_activate_.rose_or_came(), reset = estop_reset_.rose();
     if (off) set_state(EMC_TASK_STATE_OFF);
     else if (on) set_state(EMC_TASK_STATE_ON);
     if (activate) set_state(EMC_TASK_STATE_ESTOP);
