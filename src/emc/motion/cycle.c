@@ -36,6 +36,15 @@ static void stall_hold(struct motion *m, double t)
     }
 }
 
+/* How late this cycle began, or motion in it. Not so after threads were stopped on purpose. */
+static long long late_ns(long long now_ns)
+{
+    struct rtapi_lateness l = {.last_ns = 0};
+    rtapi_task_lateness(rtapi_task_self(), &l);
+    long long under_way = now_ns - rtapi_task_pll_get_reference();
+    return l.last_ns > under_way ? l.last_ns : under_way;
+}
+
 void motion_controller(void *arg, long period_ns)
 {
     struct motion *m = arg;
@@ -50,7 +59,7 @@ void motion_controller(void *arg, long period_ns)
 
     emcmotBlockBegin(&s->head);
     emcmotBlockBegin(&m->internal->head);
-    if (m->stall_hold_ns > 0 && since_ns > m->stall_hold_ns)
+    if (m->stall_hold_ns > 0 && since_ns > m->stall_hold_ns && late_ns(now_ns) > m->stall_hold_ns)
         stall_hold(m, (double)since_ns * 1e-9);
     for (unsigned i = 0; i < sizeof(phases) / sizeof(phases[0]); i++)
         phases[i](m);
