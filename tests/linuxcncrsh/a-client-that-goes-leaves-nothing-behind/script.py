@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # What a connection began ends with it, or with its right to command; what others do goes on.
+import select
 import sys
 from pathlib import Path
 
@@ -47,6 +48,15 @@ print(a.say("SET WAIT_MODE RECEIVED", "SET TELEOP_ENABLE OFF", "SET JOINT_UNHOME
 a.send("SET JOINT_HOME -1", "SET JOINT_WAIT_HOMED -1 20", MARK)
 need(lambda s: any(j["homing"] for j in s.joint), "homing")
 print(b.say("GET JOINT_HOMED", "SET ABORT"), a.read(MARK.encode()[4:]), poll().homed[:3])
+print("== one that waits for heartbeats, neither")
+a.say("SET WAIT_MODE DONE")
+a.send(*["SET WAIT_HEARTBEAT 1000"] * 30)
+for _ in range(30):
+    b.say("GET ECHO")
+a.send(MARK)
+answered = a.socket.recv(65536) if select.select([a.socket], [], [], 0)[0] else b""
+print("a few of its waits are over:", answered.count(b"WAIT_HEARTBEAT ACK") < 15)
+a.read(MARK.encode()[4:])
 print("== SHUTDOWN does not wait for one that never listens")
 second = Server("-4")
 deaf, other = Client(second), Client(second)

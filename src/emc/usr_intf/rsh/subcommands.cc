@@ -922,8 +922,9 @@ void machine_subcommands(Table &table) {
                      "Invalid periods '%d', waiting time of %.3f seconds would exceed timeout of 1.000 seconds", n, t));
                  return Result::failed;
              }
-             v.sleep_heartbeats(n);
-             return Result::done;
+             const int64_t until = kerf_clock_now_ns() + static_cast<int64_t>(t * 1e9);
+             s.watch([until] { return kerf_clock_now_ns() >= until ? Result::done : Result::watches; });
+             return Result::watches;
          }});
 }
 
