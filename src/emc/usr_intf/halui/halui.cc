@@ -529,7 +529,8 @@ bool Halui::create() {
 
 // Of two buttons at once the one that stops acts.
 void Halui::commands() {
-    const bool on = on_.rose(), off = off_.rose(), activate = estop_activate_.rose_or_came(), reset = estop_reset_.rose();
+    const bool on = on_.rose(), off = off_.rose(), activate = estop_activate_.rose_or_came(),
+               reset = estop_reset_.rose();
     if (off) set_state(EMC_TASK_STATE_OFF);
     else if (on) set_state(EMC_TASK_STATE_ON);
     if (activate) set_state(EMC_TASK_STATE_ESTOP);
