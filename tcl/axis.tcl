@@ -612,7 +612,13 @@ proc ::axis::arrange {} {
     foreach w {feedoverride rapidoverride spinoverride} { pack configure .pane.top.$w.m -padx $space }
     foreach w {jogspeed ajogspeed maxvel} { pack configure .pane.top.$w.l1 -padx $space }
     update idletasks
-    foreach book {tabs right} { .pane.top.$book compute_size }
+    foreach book {.pane.top.tabs .pane.top.right} {
+        $book compute_size
+        # room for all tabs; many of them have arrows
+        lassign [$book.c bbox page] - - tabs
+        set has [$book.c cget -width]
+        if {$tabs > $has && $tabs < 1.5 * $has} { $book configure -width [expr {[$book cget -width] + $tabs - $has}] }
+    }
     if {".pane.bottom" in [.pane panes]} { .pane paneconfigure .pane.bottom -height [winfo reqheight .pane.bottom] }
 }
 

@@ -209,6 +209,9 @@ class LooksPart:
                 self.root.tk.call(book, "itemconfigure", page, "-background", self.colours["face"], "-foreground",
                                   self.colours["ink"], "-activebackground", self.colours["pressed"],
                                   "-activeforeground", self.colours["ink"])
+            font = self.root.tk.call(book, "cget", "-font")
+            for name in ("TkCaptionFont", font):         # another one and back: the tabs are measured anew
+                self.root.tk.call(book, "configure", "-font", name)
         self.layout()
         self.resize_widgets()
         self.icons.restyle(self.icon_px(), self.style.dark)
