@@ -785,6 +785,8 @@ def main(argv):
         return 1
     for warning in app.settings.warnings:
         print(f"axis: {warning}")
+    root.at_interrupt = root.destroy
+    tkstyle.hear_signals(root)
     try:
         app.start(os.path.abspath(rest[0]) if rest else None)
         root.mainloop()
@@ -792,10 +794,11 @@ def main(argv):
     except (KeyboardInterrupt, SystemExit):
         pass
     except BaseException:        # a crash like one of the process: the launcher starts the screen again
-        text = traceback.format_exc()
-        print(text, file=sys.stderr, flush=True)
-        app.recorder.fell(text)
-        os._exit(CRASHED)
+        if not root.interrupted:
+            text = traceback.format_exc()
+            print(text, file=sys.stderr, flush=True)
+            app.recorder.fell(text)
+            os._exit(CRASHED)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # one is enough: nothing interrupts the end
     app.close()
     return app.exit_status
