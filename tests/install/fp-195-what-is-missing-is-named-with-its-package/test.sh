@@ -1,5 +1,5 @@
 #!/bin/bash
-# configure with parts of the system hidden: a compiler that does not find headers, a pkg-config that knows no libraries,
+# FP-195: configure with parts of the system hidden: a compiler that does not find headers, a pkg-config that knows no libraries,
 # programs that are not on PATH.
 configure=$EMC2_HOME/configure
 [ -x "$configure" ] || { echo "there is no configure in $EMC2_HOME"; exit 1; }
