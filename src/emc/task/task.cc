@@ -599,10 +599,12 @@ void Task::abort_task() {
     interp_->reset();
     if (program) { // back from where reading was to what the machine does
         canon_->spindle_is(-1, 0); // the S word of what is restored starts nothing
+        canon_->keeps_speeds = true;
         interp_->restore_offsets(executed_offsets_.values, t.toolOffset);
         interp_->restore_from_tag(tag);
         interp_->restore_offsets(executed_offsets_.values,
                                  t.toolOffset); // the tag may be of a move before the last change
+        canon_->keeps_speeds = false;
         read_offsets_ = executed_offsets_;
     } else {
         forget_offsets();

@@ -421,6 +421,7 @@ void TaskCanon::INIT_CANON() {
 }
 
 void TaskCanon::refresh_css() {
+    if (keeps_speeds) return;
     for (int s = 0; s < EMCMOT_MAX_SPINDLES; s++) {
         if (spindle_[static_cast<size_t>(s)].css_maximum == 0) continue;
         EMC_SPINDLE_SPEED m;
@@ -567,6 +568,7 @@ void TaskCanon::SET_SPINDLE_SPEED(int spindle, double speed) {
     flush();
     if (spindle < 0 || spindle >= EMCMOT_MAX_SPINDLES) return;
     spindle_[static_cast<size_t>(spindle)].speed = std::fabs(speed);
+    if (keeps_speeds) return;
     EMC_SPINDLE_SPEED m;
     fill_speed(&m, spindle);
     emit(m);

@@ -194,6 +194,10 @@ public:
     // word does next follows it. spindle -1: all of them.
     void spindle_is(int spindle, int dir);
 
+    // While it is true S words are kept and give no order: what is restored comes into force at rest, and spindles
+    // that somebody has started by then go on.
+    bool keeps_speeds = false;
+
     // G97 for all spindles; one that turns goes on until the next S word.
     void constant_rpm();
 

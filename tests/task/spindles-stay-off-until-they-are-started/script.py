@@ -88,6 +88,21 @@ c.wait_complete(0.5)
 show("program: start by hand")
 c.abort()
 show(f"aborted, T{poll().tool_in_spindle}")
+# A start by hand as soon as the machine rests after an abort counts: nothing restored takes it back.
+started = 0
+for step in range(8):
+    program("S400\nG1 X1 F60\nG1 X0\nM2\n")
+    c.auto(AUTO_RUN, 0)
+    need(lambda s: s.current_vel > 0.5, "motion")
+    c.abort()
+    need(lambda s: s.interp_state == INTERP_IDLE and s.inpos, "rest")
+    sleep(0.0005 * step)
+    c.spindle(SPINDLE_FORWARD, 500)
+    sleep(0.3)
+    started += poll().spindle[0]["speed"] == 500
+    c.spindle(SPINDLE_OFF)
+    c.wait_complete()
+print("starts after an abort:", started, "of 8", messages())
 # FP-010: path modes survive.
 for code in ("G61", "G61.1", "G64 P0.1 Q0.02"):
     mdi(code)
