@@ -11,9 +11,10 @@ def own_session():
 
 
 def weigh(folder):
-    """(kB of private memory, open files) of one process of /proc."""
+    """(kB that it has written, open files) of one process of /proc. Pages of files are not its own: they become private
+    when others that map them end."""
     rollup = (folder / "smaps_rollup").read_text()
-    return (sum(int(line.split()[1]) for line in rollup.splitlines() if line.startswith("Private_")),
+    return (sum(int(line.split()[1]) for line in rollup.splitlines() if line.startswith(("Private_Dirty:", "Swap:"))),
             len(os.listdir(folder / "fd")))
 
 

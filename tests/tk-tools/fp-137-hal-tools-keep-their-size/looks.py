@@ -12,7 +12,7 @@ TOLERANCE_KB = 100      # of one part: what is touched for the first time comes 
 
 def private_kb():
     lines = Path("/proc/self/smaps_rollup").read_text().splitlines()
-    return sum(int(line.split()[1]) for line in lines if line.startswith("Private_"))
+    return sum(int(line.split()[1]) for line in lines if line.startswith(("Private_Dirty:", "Swap:")))
 
 
 def change(n):

@@ -55,10 +55,10 @@ CHANGER = ["!iocontrol.0.tool-change", "loadusr -W hal_manualtoolchange",
 
 
 def weigh(pid):
-    """kB: (of its own, resident)."""
+    """kB: (of its own, resident). Pages of files are nobody's own: they become private when others that map them end."""
     lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()[1:]
     sizes = {words[0]: int(words[1]) for words in map(str.split, lines)}
-    return sizes["Private_Clean:"] + sizes["Private_Dirty:"], sizes["Rss:"]
+    return sizes["Private_Dirty:"] + sizes["Swap:"], sizes["Rss:"]
 
 
 class Tool:
@@ -124,12 +124,12 @@ class Soak:
         options = {"stdin": subprocess.DEVNULL, "stdout": log, "stderr": log} | how
         return subprocess.Popen(words, env=env, cwd=cwd, **options)
 
-    def window(self, name, words, hand="", session=None, cwd=None):
+    def window(self, name, words, hand="", session=None, cwd=None, size=""):
         """A Tk program that lives by fast_tk."""
         if not self.wanted(name):
             return
         life = self.scratch / f"{name}.life"
-        env = self.environment(name, session, SOAK_LIFE=str(life), SOAK_HAND=hand)
+        env = self.environment(name, session, SOAK_LIFE=str(life), SOAK_HAND=hand, SOAK_SIZE=size)
         env["PYTHONPATH"] = f"{HERE.parent / 'fast_tk'}:{env.get('PYTHONPATH', '')}"
         # they never wait: the machine goes first
         process = self.start(name, ["nice", "-n", "10", *words], env, cwd)
@@ -341,7 +341,7 @@ def windows_of_a_bench(soak):
         soak.window("hal-histogram", ["hal-histogram", "siggen.0.sine"], session=machine)
         panels = TOP / "tests/pyvcp/every-widget-works-with-its-pins"
         soak.window("pyvcp", ["pyvcp", "-c", "all", "panel.xml"], session=machine, cwd=panels)
-        soak.window("vismach", ["xyzac-trt-gui"], session=machine)
+        soak.window("vismach", ["xyzac-trt-gui"], session=machine, size="160x120")
         env = soak.environment("halcmd", machine)
         pins = {"slow": "all.bar.0 all.meter.0.value xyzac-trt-gui.tilt-a xyzac-trt-gui.table-x",
                 "sine": "all.number.0 xyzac-trt-gui.rotate-c", "square": "all.led.0 all.my-led all.timer.0.run"}

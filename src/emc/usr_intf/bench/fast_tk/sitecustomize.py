@@ -4,6 +4,7 @@
 SOAK_LIFE   file that gets "process-id hours": what the timer that waited longest has waited for, by its own count.
 SOAK_HAND   words with commas between, one every PRESS_MS of the program's time: the label of a button that is pressed,
             or an event for what has the focus (<Down>).
+SOAK_SIZE   WIDTHxHEIGHT of the window: what is drawn by software takes a time by its pixels.
 """
 import os
 import tkinter
@@ -58,6 +59,9 @@ def with_hand(self, n=0):
         pressed[0] += 1
         fast_after(root, PRESS_MS, hand)
         do(root, wish)
+    if os.environ.get("SOAK_SIZE"):
+        root.minsize(1, 1)
+        root.geometry(os.environ["SOAK_SIZE"])
     if words:
         import tkinter.ttk  # noqa: F401
         root.focus_force()
