@@ -107,6 +107,8 @@ def script(op):
             while app.keys.held:             # a release waits for a repeat, in real time
                 root.update()
             op.wait(0.04)
+            if any(words.startswith("jog stop") for words in told):
+                op.until(lambda: not look(op)["moves"], "rest")
             effect = [*told, *(f"{n}={v}" for n, v in look(op).items() if v != before[n])]
             if effect and state == "entry" and effect[0].startswith("mdi_command="):
                 effect = ["typed"]
