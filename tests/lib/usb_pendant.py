@@ -51,10 +51,14 @@ class Pendant:
 
     def loops(self):
         """The program has been round at least once since the call: it sends a display each time."""
-        out = self.folder / "out"
-        seen = out.stat().st_size
-        while out.stat().st_size < seen + 3 * self.display:
+        seen = self.sent()
+        while self.sent() < seen + 3 * self.display:
             time.sleep(0.005)
+
+    def sent(self):
+        """Bytes of displays so far; a pendant that was just found has had none."""
+        out = self.folder / "out"
+        return out.stat().st_size if out.exists() else 0
 
     def start(self, *options, **changes):
         return subprocess.Popen([self.program, *options], env=self.environment | changes, stdin=subprocess.DEVNULL,
