@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The processes of a machine that the launcher has started: found by the variable that marks them, ended, waited for."""
+"""The processes of a machine that the launcher started: found by the variable that marks them, ended, waited for."""
 
 import os
 import signal
