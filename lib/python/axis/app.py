@@ -12,7 +12,7 @@ import tkinter as tk
 import traceback
 
 import linuxcnc
-from kerf import clock, gl, language, tkstyle
+from kerf import clock, gl, language, process, tkstyle
 from kerf.failures import Recorder
 from kerf.language import N_
 from kerf.screen_record import Record
@@ -55,6 +55,7 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
 
     def __init__(self, root, ini_path):
         self.root = root
+        process.give_back_memory()
         self.record = Record()
         fault = self.record.by_fault()
         self.probe = gl.Probe(f"the screen before {fault}" if fault else "")

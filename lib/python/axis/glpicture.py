@@ -38,6 +38,14 @@ class GLPicture(gl.Frame):
         self.window.make_current()
         return self.renderer.step()
 
+    def release(self, drawings):
+        """Gives back the driver's copies of the drawings, which the next drawing makes anew. drawings: these are gone
+        too, the picture stays as it is."""
+        self.window.make_current()
+        self.renderer.forget()
+        if drawings:
+            self.renderer.steps = None
+
     def draw_frame(self, scene, matrix):
         self.window.make_current()
         if not self.renderer.draw_frame(scene, matrix):

@@ -196,6 +196,7 @@ class OpeningPart:
         self.stale_since = None
         timeout = self.settings.real(("DISPLAY", "PREVIEW_TIMEOUT"), default=0.0)
         boxed = self.loader.too_large(self.shown_file)
+        self.preview.drop_program(drawings=not quiet)
         path, drawings = self.read_program(() if boxed else self.preview.places(),
                                            timeout if timeout > 0 else LONGEST_PREVIEW_S, 50)
         self.picture_conditions = self.limit_conditions

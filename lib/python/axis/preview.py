@@ -10,7 +10,7 @@ from .camera import LATHE
 from .compose import Composer, plot_colours, rgb
 
 SETTLE_MS = 120          # after the last change of the view the exact picture begins
-STEP_MS = 10
+STEP_MS = 2
 
 
 class Preview(Composer, tk.Frame):
@@ -163,6 +163,14 @@ class Preview(Composer, tk.Frame):
     def set_program(self, program, drawings, boxed=False):
         Composer.set_program(self, program, drawings, boxed)
         self.view_changed()
+
+    def drop_program(self, drawings):
+        """Before another program is read: only one of a million lines is in memory at a time. drawings: also what
+        the picture is made of, which stays as it is until it has to be drawn anew."""
+        if drawings:
+            self.drawings = []
+            self.scene.drawings = self.scene.palettes = []
+        self.picture.release(drawings)
 
     def clear_plot(self):
         self.logger.clear()

@@ -186,6 +186,7 @@ def main(parent, wanted, writing):
     process.end_with_parent(signal.SIGKILL, parent)
     with open(wanted, "rb") as f:
         *request, megabytes = pickle.load(f)
+    process.give_back_memory()
     process.limit_memory(megabytes)
 
     def report(*what):

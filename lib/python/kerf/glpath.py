@@ -10,6 +10,7 @@ Inches. Colours are four numbers 0 to 1. Matrices: 16 numbers, row-major, clip =
 """
 
 import ctypes
+import time
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,9 +18,11 @@ import numpy as np
 from .gltext import Glyphs
 
 MOVING_VERTICES = 40000      # of the first, quick drawing; adapted to what the driver does in FRAME_S
-LEAST_VERTICES, MOST_VERTICES = 8000, 400000
-FRAME_S = 1 / 40
-SLICE_VERTICES = 60000      # of one step towards the exact one
+LEAST_VERTICES, MOST_VERTICES = 500, 400000
+FRAME_S = 1 / 50
+SLICE_VERTICES = 8000        # of the first step towards the exact one; adapted to what the driver does in SLICE_S
+LEAST_SLICE, MOST_SLICE = 1000, 200000
+SLICE_S = 0.05
 EXACT_PX = 0.7
 USUAL_LETTERS_PX = 13        # with lines of one pixel
 PLOT_TAIL = 16               # points at the plot's end that may still change
@@ -94,8 +97,8 @@ class Scene:
 class Renderer:
     """Draws scenes in the current context."""
 
-    def __init__(self, gl):
-        self.gl = gl
+    def __init__(self, gl, clock=time.monotonic):
+        self.gl, self.clock = gl, clock
         self.path = self.program(PATH_VERTEX, COLOUR_FRAGMENT)
         self.plain = self.program(PLOT_VERTEX, COLOUR_FRAGMENT)
         self.text = self.program(TEXT_VERTEX, TEXT_FRAGMENT)
@@ -113,7 +116,7 @@ class Renderer:
         self.steps = None            # the exact drawing that is going on
         self.plotted = 0
         self.exact = True
-        self.budget = MOVING_VERTICES
+        self.budget, self.slice = MOVING_VERTICES, SLICE_VERTICES
         self.thickness = 1           # pixels of a line, more where pixels are small
 
     # -- building blocks -------------------------------------------------------------------
@@ -244,21 +247,35 @@ class Renderer:
                 self.gl.glDrawArrays(self.gl.GL_LINE_STRIP, f, n)
 
     def slices(self, first, count, most):
-        """The pieces in portions of at most `most` vertices."""
-        part, total = ([], []), 0
+        """The pieces in portions of at most most() vertices."""
+        part, left = ([], []), most()
         for f, n in zip(first, count):
             while n > 1:
-                take = min(n, most - total)
+                take = min(n, left)
                 if take > 1:
                     part[0].append(f)
                     part[1].append(take)
-                    total += take
+                    left -= take
                     f, n = f + take - 1, n - take + 1
-                if total >= most - 1:
+                if left <= 1:
                     yield part
-                    part, total = ([], []), 0
+                    part, left = ([], []), most()
         if part[0]:
             yield part
+
+    def until_drawn(self):
+        """Pauses until the driver has drawn what it was given, and learns how much that may be: what waits in the
+        driver takes memory, and keeps the screen waiting that draws its next frame."""
+        gl = self.gl
+        began, fence = self.clock(), gl.glFenceSync(gl.GL_SYNC_GPU_COMMANDS_COMPLETE, 0)
+        try:
+            gl.glFlush()
+            while gl.glClientWaitSync(fence, 0, 0) == gl.GL_TIMEOUT_EXPIRED:
+                yield None
+        finally:
+            gl.glDeleteSync(fence)
+        factor = min(2.0, max(0.25, SLICE_S / max(self.clock() - began, 1e-4)))
+        self.slice = int(min(MOST_SLICE, max(LEAST_SLICE, self.slice * factor)))
 
     # -- items, texts, plot ----------------------------------------------------------------
 
@@ -373,14 +390,14 @@ class Renderer:
         for drawing, palette in zip(scene.drawings, scene.palettes):
             level, first, count, vertices, good = drawing.choose(matrix, *self.size, EXACT_PX, budget)
             exact = exact and good
-            for part in self.slices(first, count, SLICE_VERTICES):
+            for part in self.slices(first, count, lambda: self.slice if not budget else budget):
                 self.layer(name)
                 self.use(self.path, matrix)
                 self.palette(palette)
                 self.bind_drawing(drawing, level)
                 self.pieces(level, *part)
                 if not budget:
-                    self.gl.glFlush()
+                    yield from self.until_drawn()
                     yield None
         self.layer(name)
         for number, first, last in scene.selected_spans:
@@ -409,13 +426,14 @@ class Renderer:
             pass
         self.exact = bool(last)
         if not self.exact:
+            self.slice = max(LEAST_SLICE, min(self.slice, int(self.budget * SLICE_S / FRAME_S)))
             self.steps = self.still_steps("fine", scene, matrix, 0, label_size)
 
     def took(self, seconds):
         """Tells how long a quick drawing took until it was seen: the next ones have more or fewer vertices."""
         if self.exact and seconds < FRAME_S:
             return                   # nothing was left out: nothing is learned
-        factor = min(1.3, max(0.6, FRAME_S / max(seconds, 1e-4)))
+        factor = min(1.3, max(0.3, FRAME_S / max(seconds, 1e-4)))
         self.budget = int(min(MOST_VERTICES, max(LEAST_VERTICES, self.budget * factor)))
 
     def step(self):

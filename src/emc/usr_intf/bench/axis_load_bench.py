@@ -3,19 +3,23 @@
 """axis_load_bench.py [LINES...]: what an operator waits for when AXIS opens a program, in real time, on a display of
 its own.
 
-For each size (a zigzag surface, see preview_bench.py): seconds until the program is opened, the longest time in which
-the screen did not answer and the longest that it worked for without a look at its events (on a loaded machine the
-first says little), the most memory of the screen and of the processes it started, MB.
+For each size (a zigzag surface, see preview_bench.py): seconds until the program is opened and until it is drawn
+exactly, the longest time in which the screen did not answer and the longest that it worked for without a look at its
+events (on a loaded machine the first says little), the most memory of the screen and of the processes it started, MB;
+the frames a second while the view turns, at first (the screen learns what it can draw in time) and later. The largest
+also as lines that cross.
 """
+import math
 import os
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-from preview_bench import SIZES, write
+from preview_bench import SIZES, write, write_crossing
 
 top = Path(__file__).resolve().parents[4]
 
@@ -54,6 +58,18 @@ def family_mb(pid):
     return total
 
 
+def turn(root, preview, frames=90):
+    """Frames a second of the first and of the last thirty of a view that turns, by their median."""
+    times = []
+    for _ in range(frames):
+        begin = time.monotonic()
+        preview.camera.rotate(5, 2)
+        preview.view_changed()
+        root.update()
+        times.append(time.monotonic() - begin)
+    return 1 / statistics.median(times[:30]), 1 / statistics.median(times[-30:])
+
+
 def measure(ini_path, sizes):
     import tkinter as tk
     from axis.app import App
@@ -63,20 +79,26 @@ def measure(ini_path, sizes):
     for _ in range(20):
         app.tick()
         root.update()
-    for size in sizes:
+    for writer, size in [*((write, size) for size in sizes), (write_crossing, max(sizes))]:
         path = f"{size}.ngc"
-        write(path, size)
+        writer(path, size)
         gaps, begin = Gaps(root), time.monotonic()
         app.open_file_guts(path)
         opened = time.monotonic() - begin
         end = time.monotonic() + 2
-        while time.monotonic() < end or not app.preview.picture.exact and time.monotonic() < end + 30:
+        exact = math.inf
+        while time.monotonic() < end or exact == math.inf and time.monotonic() < end + 30:
             root.update()
             time.sleep(0.002)
+            if app.preview.picture.exact:
+                exact = min(exact, time.monotonic() - begin)
         gaps.going = False
         root.update()
-        print(f"{size:8d} lines: opened in {opened:.2f} s, longest silence {gaps.worst * 1000:.0f} ms, longest work "
-              f"{gaps.worst_work * 1000:.0f} ms, {gaps.memory:.0f} MB together ({app.preview.picture.kind}, "
+        first, later = turn(root, app.preview)
+        kind = " that cross" if writer is write_crossing else ""
+        print(f"{size:8d} lines{kind}: opened in {opened:.2f} s, drawn exactly after {exact:.2f} s, longest silence "
+              f"{gaps.worst * 1000:.0f} ms, longest work {gaps.worst_work * 1000:.0f} ms, {gaps.memory:.0f} MB together, "
+              f"turned at {first:.0f} to {later:.0f} frames/s ({app.preview.picture.kind}, "
               f"{app.preview.program.n_moves} moves)", flush=True)
         os.remove(path)
     app.close()

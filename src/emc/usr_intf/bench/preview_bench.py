@@ -7,6 +7,7 @@ its drawing, memory that it takes, and frames a second of a moving view (exact t
 with OpenGL the card does this part). Each figure in a process of its own; the median of three.
 """
 import math
+import random
 import resource
 import statistics
 import subprocess
@@ -27,6 +28,23 @@ def write(path, lines):
             row, column = divmod(i, 500)
             f.write(f"G1 X{0.4 * (column if row % 2 == 0 else 499 - column):.3f} Y{row * 0.1:.3f} "
                     f"Z{math.sin(i / 60):.3f}\n")
+        f.write("M2\n")
+
+
+def write_crossing(path, lines):
+    """The worst that is drawn: lines of 50 mm in all directions on the same place."""
+    random.seed(1)
+    x = y = 50.0
+    with open(path, "w") as f:
+        f.write("G21 G90 F3000\nG0 X50 Y50 Z0\n")
+        for _ in range(lines - 3):
+            while True:
+                angle = random.uniform(0, 2 * math.pi)
+                to = x + 50 * math.cos(angle), y + 50 * math.sin(angle)
+                if 0 <= min(to) and max(to) <= 100:
+                    break
+            x, y = to
+            f.write(f"G1 X{x:.3f} Y{y:.3f} Z{random.uniform(-5, 0):.3f}\n")
         f.write("M2\n")
 
 

@@ -19,6 +19,7 @@ namespace {
 constexpr uint8_t JUMP = 3;             // kinds up to 2 are drawn
 constexpr int FINEST = 16384, COARSEST = 32; // tolerances: parts of the drawing's size
 constexpr size_t MOST_SKIPPED = 24;      // vertices that one piece replaces in a level
+constexpr size_t THIN_PIECES = 64, LEAST_PIECE = 8; // of a drawing that is thinner than its coarsest level
 constexpr double TURN_STEP_DEG = 10, MIN_TURN_STEPS = 10;
 constexpr const char *LETTERS = "XYZABCUVW";
 
@@ -372,15 +373,16 @@ Choice Drawing::choose(const Matrix &matrix, int width, int height, double pixel
         if (!budget || out.vertices <= budget || level + 1 == levels_.size()) break;
     }
     out.exact = level == 0 || levels_[level].tolerance <= allowed;
-    if (budget && out.vertices > budget) { // every n-th chunk: thinner, but all over the part
+    if (budget && out.vertices > budget) { // every n-th piece: thinner, but all over the part
+        const size_t piece = std::min<size_t>(std::max<size_t>(budget / THIN_PIECES, LEAST_PIECE), CHUNK / 4);
         const size_t step = (out.vertices + budget - 1) / budget;
         Choice thin;
         thin.level = level;
         thin.exact = false;
         for (size_t i = 0; i < out.first.size(); ++i)
-            for (int32_t at = 0; at < out.count[i]; at += int32_t(CHUNK / 4 * step)) {
+            for (int32_t at = 0; at < out.count[i]; at += int32_t(piece * step)) {
                 thin.first.push_back(out.first[i] + at);
-                thin.count.push_back(std::min<int32_t>(int32_t(CHUNK / 4), out.count[i] - at));
+                thin.count.push_back(std::min<int32_t>(int32_t(piece), out.count[i] - at));
                 thin.vertices += size_t(thin.count.back());
             }
         return thin;

@@ -113,7 +113,7 @@ public:
     bool extents(std::array<double, 3> &low, std::array<double, 3> &high) const;
 
     /// The coarsest level that is exact to `pixels` in a window; a coarser one where it needs more than
-    /// `budget` vertices (0: no bound), and where none is small enough, every n-th chunk of the last.
+    /// `budget` vertices (0: no bound), and where none is small enough, every n-th piece of the last.
     Choice choose(const Matrix &matrix, int width, int height, double pixels, size_t budget) const;
     /// Into a picture in memory, exact to `pixels`. palette: colours of kinds.
     void draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, double pixels) const;
