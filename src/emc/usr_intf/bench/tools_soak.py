@@ -5,7 +5,8 @@
 The programs are those that ship, each a process of its own. Windows live by fast_tk: the looks of a day without the
 waits. What takes part in virtual time lives as long as the machine's clock went. A server lives by what it was asked:
 ten requests a second are a day's 864,000. Each tool is ended when it has lived HOURS; MINUTES of wall time end all.
-REPORT is written each minute; a tool grows that gained MOST_KB a day in the later half of its life.
+REST: part of the time in which the machine stands still (0.9: its windows get most of the processor). REPORT is written
+each minute; a tool grows that gained MOST_KB a day in the later half of its life.
 """
 import os
 import pty
@@ -20,6 +21,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve()
 TOP = HERE.parents[4]
 HOURS, MINUTES = float(os.environ.get("HOURS", "24")), float(os.environ.get("MINUTES", "600"))
+REST = float(os.environ.get("REST", "0"))
 REPORT = Path(os.environ.get("REPORT", TOP / "objects/tools-soak.txt"))
 MOST_KB, LEAST_KB = 2000, 400       # in a day; and what is never called growth, however short the run
 # What a tool keeps by intent: 131072 observations and 16000 points of a trace fill up first.
@@ -415,7 +417,14 @@ def beside_the_machine():
         print(f"the program runs: {mill.s.interp_state != mill.INTERP_IDLE}, {clock.now() / 3600:.2f} h of the machine")
         mill.c.abort()
     soak.closing.append(ended)
-    bad = soak.run(lambda: (mill.sleep(0.5), mill.messages()))
+
+    def some_time():
+        began = time.monotonic()
+        mill.sleep(0.5)
+        mill.messages()
+        if REST:
+            time.sleep((time.monotonic() - began) * REST / (1 - REST))      # we are in the clock: it stands still
+    bad = soak.run(some_time)
     for name in bad:
         text = (scratch / f"{name}.log").read_text() if (scratch / f"{name}.log").exists() else ""
         print("GROWS or ended:", name, text[-1500:])
