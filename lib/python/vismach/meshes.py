@@ -4,7 +4,7 @@
 import numpy as np
 
 from .parts import tell
-from .shapes import flat_normals, triangles
+from .shapes import Body, flat_normals
 
 
 def lines_of(filename, data):
@@ -32,8 +32,8 @@ class File:
             raise ValueError(f"{self.source}: a triangle has no three corners")
         if not self.points:
             tell(f"{self.source}: no triangles; {type(self).__name__} reads text, not a binary file")
-        self.arrays = self.finish(np.array(self.points, dtype=float).reshape(-1, 3),
-                                  np.array(self.normals, dtype=float).reshape(-1, 3))
+        self.body = Body(*self.finish(np.array(self.points, dtype=float).reshape(-1, 3),
+                                      np.array(self.normals, dtype=float).reshape(-1, 3)))
 
     def finish(self, points, normals):
         """All-zero normals are computed from the corners."""
@@ -43,8 +43,7 @@ class File:
         return points, normals
 
     def draw(self):
-        if len(self.arrays[0]):
-            triangles(*self.arrays)
+        self.body.draw()
 
 
 class AsciiSTL(File):

@@ -21,6 +21,30 @@ def triangles(points, normals):
     GL.glDisableClientState(GL.GL_NORMAL_ARRAY)
 
 
+class Body:
+    """Triangles that stay as they are: given to the driver once (a display list)."""
+
+    def __init__(self, points, normals):
+        self.arrays, self.list = (points, normals), None
+
+    def draw(self):
+        if self.list is not None:
+            GL.glCallList(self.list)
+        elif len(self.arrays[0]):
+            self.list = GL.glGenLists(1)
+            GL.glNewList(self.list, GL.GL_COMPILE)
+            try:
+                triangles(*self.arrays)
+            finally:
+                GL.glEndList()
+            GL.glCallList(self.list)
+
+    def forget(self):
+        if self.list is not None:
+            GL.glDeleteLists(self.list, 1)
+            self.list = None
+
+
 def flat_normals(points):
     """Of triangles: one for each point; of triangles without a surface +Z."""
     corners = np.asarray(points, dtype=float).reshape(-1, 3, 3)
@@ -61,7 +85,7 @@ class Shape:
             raise TypeError(f"{type(self).__name__}({', '.join(wanted)}): {len(args)} arguments were given")
         if self.comp is None and any(isinstance(a, str) for a in args):
             raise TypeError(f"{type(self).__name__}: names of pins need the component as first argument")
-        self.args, self.made_of, self.made = args, None, None
+        self.args, self.made_of, self.body = args, None, Body((), ())
 
     def coords(self):
         """The arguments as numbers."""
@@ -72,9 +96,9 @@ class Shape:
         if now != self.made_of:
             mesh = Mesh()
             self.mesh(mesh, *now)
-            self.made, self.made_of = mesh.arrays(), now
-        if len(self.made[0]):
-            triangles(*self.made)
+            self.body.forget()
+            self.body, self.made_of = Body(*mesh.arrays()), now
+        self.body.draw()
 
     def volume(self):
         return self.volume_of(*self.coords())

@@ -159,7 +159,7 @@ def shapes(b: Bench) -> None:
         name = type(shape).__name__
         check(f"volume() of {name}", round(shape.volume(), 9), round(volume, 9))
         b.draw(shape)
-        points, normals = shape.made
+        points, normals = shape.body.arrays
         # the surface is closed and faces outwards: its volume by the divergence theorem
         t = points.reshape(-1, 3, 3)
         solid = np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6
@@ -190,7 +190,7 @@ def shapes(b: Bench) -> None:
     own = Tool(c)
     b.draw(own)
     check("coords() of a subclass",
-          (own.made[0].min(axis=0).round(6).tolist(), own.made[0].max(axis=0).round(6).tolist()),
+          (own.body.arrays[0].min(axis=0).round(6).tolist(), own.body.arrays[0].max(axis=0).round(6).tolist()),
           ([-.5, -.5, -2], [.5, .5, 0]))
 
     class OtherTool(Tool):
@@ -235,13 +235,13 @@ def files(b: Bench, folder: str) -> None:
     path = Path(folder, "a.stl")
     path.write_text(stl)
     for part in (v.AsciiSTL(filename=str(path)), v.AsciiSTL(data=stl), v.AsciiSTL(data=stl.splitlines())):
-        check("STL", part.arrays[1], np.array([[0, 0, 1]] * 3))
+        check("STL", part.body.arrays[1], np.array([[0, 0, 1]] * 3))
         b.draw(part)
     obj = v.AsciiOBJ(data="# x\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvn 0 -1 0\nvt 0 0\nf 1//1 2//1 3//1\nf -3 -2 -1\n")
-    check("OBJ", obj.arrays[1], np.array([[0, -1, 0]] * 6))
+    check("OBJ", obj.body.arrays[1], np.array([[0, -1, 0]] * 6))
     b.draw(obj)
     square = v.AsciiOBJ(data="v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n")
-    check("OBJ: a face of four corners", sorted(map(tuple, square.arrays[0][:, :2])),
+    check("OBJ: a face of four corners", sorted(map(tuple, square.body.arrays[0][:, :2])),
           [(0, 0), (0, 0), (0, 1), (2, 0), (2, 1), (2, 1)])
     Path(folder, "b.stl").write_bytes(b"solid \0 by a CAD program".ljust(80) + struct.pack("<I12fH", 1, *range(12), 0))
     b.view_errors()
