@@ -220,7 +220,7 @@ class Jogwheel(Wheel):
         name = halpin or base + ".count"
         self.pin = panel.new(name, hal.HAL_FLOAT, hal.HAL_OUT)
         self.reset = Follower(panel.new(base + ".reset", hal.HAL_BIT, hal.HAL_IN)) if clear_pin else None
-        self.scale = panel.new(base + ".scale", hal.HAL_FLOAT, hal.HAL_IN) if scale_pin else None
+        self.scale = Follower(panel.new(base + ".scale", hal.HAL_FLOAT, hal.HAL_IN)) if scale_pin else None
         self.count, self.shown = int(panel.first(name, 0)), 0.0
         self.pin.set(self.count)
         self.make(size, cpr, text, bgcolor, "", "grey")
@@ -243,11 +243,11 @@ class Jogwheel(Wheel):
     def turned(self, steps):
         self.count += steps
         self.pin.set(self.count)
-        self.shown += steps * (self.scale.get() if self.scale is not None else 0)
+        self.shown += steps * (self.scale.pin.get() if self.scale is not None else 0)
         self.show()
 
     def follow(self):
         if self.reset is not None and self.reset.changed():
             self.clear()
-        if self.scale is not None:
-            self.itemconfigure("step", text=f"x {self.scale.get():g}")
+        if self.scale is not None and (scale := self.scale.changed()) is not None:
+            self.itemconfigure("step", text=f"x {scale:g}")

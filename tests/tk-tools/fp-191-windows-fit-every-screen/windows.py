@@ -31,7 +31,8 @@ import fit_check
 
 class Status:
     """What the controller would say."""
-    debug, ini_filename, axis_mask, kinematics_type, joints = 0, "", 7, linuxcnc.KINEMATICS_IDENTITY, 3
+    debug, ini_filename, axis_mask, kinematics_type = 0, "", 7, linuxcnc.KINEMATICS_IDENTITY
+    joints, spindles = 3, 1
     position = (1.0,) * 9
     file = "/home/somebody/linuxcnc/nc_files/part.ngc"
 

@@ -60,6 +60,7 @@ class Chart(tk.Canvas):
         super().__init__(parent, width=style.px(WIDTH), height=style.px(HEIGHT), background=style.colours["field"],
                          highlightthickness=1, highlightbackground=style.colours["line"])
         self.style, self.title, self.bars, self.logarithmic = style, title, None, True
+        self.drawn, self.rectangles = None, []      # what decides on all but heights and figures; (item, height) of bars
         self.bind("<Configure>", lambda event: self.draw())
 
     def show(self, bars: Bars, logarithmic: bool):
@@ -67,23 +68,47 @@ class Chart(tk.Canvas):
         self.draw()
 
     def draw(self):
-        self.delete("all")
-        px, ink = self.style.px, self.style.colours["ink"]
-        width, height, margin = self.winfo_width(), self.winfo_height(), px(MARGIN)
-        floor, ceiling = height - margin, px(2 * MARGIN)
+        """What is as it was at the last look stays."""
+        bars, width, height = self.bars, self.winfo_width(), self.winfo_height()
+        frame = (width, height, bars and (len(bars.counts), bars.low, bars.high, bars.unit))
+        if frame != self.drawn:
+            self.drawn = frame
+            self.delete("all")
+            self.draw_frame(width, height)
+        if bars:
+            self.itemconfigure("figures", text=bars.text)
+            self.itemconfigure("highest", text=_("highest bar: %d") % max(bars.counts, default=0))
+            self.draw_bars(width, height)
+
+    def draw_bars(self, width, height):
+        margin, counts = self.style.px(MARGIN), self.bars.counts
+        floor, step = height - margin, (width - 2 * margin) / max(1, len(counts))
+        heights = bar_heights(counts, floor - self.style.px(2 * MARGIN), self.logarithmic)
+        for i, h in enumerate(max(round(h), 1) if h > 0 else 0 for h in heights):
+            item, before = self.rectangles[i]
+            if h == before:
+                continue
+            x = margin + i * step
+            if item and h:
+                self.coords(item, x, floor - h, x + max(step, 1), floor)
+            elif h:
+                item = self.create_rectangle(x, floor - h, x + max(step, 1), floor, fill=self.style.colours["chart"],
+                                             width=0, tags="bar")
+            else:
+                item = self.delete(item)
+            self.rectangles[i] = item, h
+
+    def draw_frame(self, width, height):
+        """All but the bars."""
+        px, ink, bars = self.style.px, self.style.colours["ink"], self.bars
+        margin = px(MARGIN)
+        floor = height - margin
         self.create_text(px(8), px(6), anchor="nw", text=self.title, font="TkDefaultFont", fill=ink, tags="title")
-        if not self.bars:
+        if not bars:
             return
-        bars = self.bars
-        self.create_text(px(8), px(26), anchor="nw", text=bars.text, font="TkDefaultFont", fill=ink, tags="figures")
-        self.create_text(width - px(8), px(6), anchor="ne", text=_("highest bar: %d") % max(bars.counts, default=0),
-                         font="TkDefaultFont", fill=ink)
-        step = (width - 2 * margin) / max(1, len(bars.counts))
-        for i, h in enumerate(bar_heights(bars.counts, floor - ceiling, self.logarithmic)):
-            if h > 0:
-                x = margin + i * step
-                self.create_rectangle(x, floor - max(h, 1), x + max(step, 1), floor, fill=self.style.colours["chart"],
-                                      width=0, tags="bar")
+        self.rectangles = [(None, 0)] * len(bars.counts)
+        self.create_text(px(8), px(26), anchor="nw", font="TkDefaultFont", fill=ink, tags="figures")
+        self.create_text(width - px(8), px(6), anchor="ne", font="TkDefaultFont", fill=ink, tags="highest")
         self.create_line(margin, floor, width - margin, floor, fill=ink)
         for part in range(5):
             x = margin + part * (width - 2 * margin) / 4

@@ -78,6 +78,7 @@ class Window:
     def __init__(self, root, stat):
         self.root, self.stat, self.ticks, self.timer = root, stat, 0, None
         self.values, self.since = {}, {}
+        self.names, self.seen = names(stat), {}     # seen: name -> (value, its text), of the last look
         style = self.style = tkstyle.apply(root)
         px = style.px
         root.title("LinuxCNC Status")
@@ -115,7 +116,12 @@ class Window:
     def update(self):
         """What has changed since the last look."""
         self.ticks += 1
-        values = {name: text for name in names(self.stat) if (text := shown(self.stat, name)) is not None}
+        turned = RED_TICKS in (self.ticks - since for since in self.since.values())
+        s = self.stat
+        machine = s.axis_mask, s.joints, s.spindles, s.kinematics_type
+        values = {name: text for name in self.names if (text := self.text_now(name, machine)) is not None}
+        if values == self.values and not turned:
+            return
         text = self.text
         text.configure(state="normal")
         if list(values) != list(self.values):
@@ -134,6 +140,13 @@ class Window:
                     text.tag_remove("changed", f"{line}.0", f"{line}.end")
         text.configure(state="disabled")
         self.values = values
+
+    def text_now(self, name, machine):
+        """shown(), made anew only when the value or what decides on its text is another."""
+        now, seen = (getattr(self.stat, name), machine), self.seen.get(name)
+        if seen is None or seen[0] != now:
+            seen = self.seen[name] = now, shown(self.stat, name)
+        return seen[1]
 
     def close(self):
         if self.timer:

@@ -16,6 +16,7 @@ from ..language import _, N_
 from ..tree import Tree
 from .machine import Jog, Machine
 from .tklinuxcnc_popups import Popups
+from .widgets import put
 
 TITLE = "TkLinuxCNC"
 RELEASE_MS = 40             # a key that repeats is let go and pressed again within this time
@@ -496,14 +497,14 @@ class Window:
         for name, text in (("estop", STATES.get(s.task_state, "?")), ("mist", SHOWN["mist"][not s.mist]),
                            ("spindle", SHOWN["spindle"][direction]), ("brake", SHOWN["brake"][not spindle["brake"]]),
                            ("flood", SHOWN["flood"][not s.flood]), ("mode", MODES.get(s.task_mode, "?"))):
-            buttons[name].configure(text=text)
+            put(buttons[name], text=text)
         self.show_rows()
         unit = self.m.unit_name(self.units.get())
-        self.info.configure(text=_("Units: %s\nTool: %s\nSystem: G%s")
-                            % (unit, s.tool_in_spindle, self.m.system_name()))
+        put(self.info, text=_("Units: %s\nTool: %s\nSystem: G%s")
+            % (unit, s.tool_in_spindle, self.m.system_name()))
         gcodes = " ".join(f"G{c / 10:g}" for c in s.gcodes[1:] if c != -1)
-        self.codes.configure(text=f"{gcodes}  " + " ".join(f"M{c:g}" for c in s.mcodes[1:] if c != -1)
-                             + f"  F{s.settings[1]:.0f} S{s.settings[2]:.0f}")
+        put(self.codes, text=f"{gcodes}  " + " ".join(f"M{c:g}" for c in s.mcodes[1:] if c != -1)
+            + f"  F{s.settings[1]:.0f} S{s.settings[2]:.0f}")
         self.optional_stop.set(bool(s.optional_stop))
         self.override.set(self.m.limits_overridden())
         for name, variable, value in (("feed", self.feed, s.feedrate), ("spindle", self.spindle, spindle["override"])):
@@ -532,15 +533,15 @@ class Window:
                 continue
             label.grid()
             value.grid()
-            label.configure(text=names[row])
+            put(label, text=names[row])
             position = self.m.position(row, self.joints, self.relative.get(), self.actual.get(), self.units.get())
-            value.configure(text="%10.4f" % position,
-                            foreground=colours["good" if self.m.row_homed(row, self.joints) else "bad"])
+            put(value, text="%10.4f" % position,
+                foreground=colours["good" if self.m.row_homed(row, self.joints) else "bad"])
 
     def show_program(self):
         s = self.m.stat
         status = {linuxcnc.INTERP_IDLE: N_("idle"), linuxcnc.INTERP_PAUSED: N_("paused")}.get(s.interp_state, N_("running"))
-        self.program_label.configure(text=_("Program: %s  -  Status: %s") % (s.file or _("none"), _(status)))
+        put(self.program_label, text=_("Program: %s  -  Status: %s") % (s.file or _("none"), _(status)))
         if s.file != self.loaded:
             self.loaded = s.file
             try:

@@ -5,6 +5,15 @@ import tkinter as tk
 from tkinter import ttk
 
 
+def put(widget, **options):
+    """widget.configure() of what has changed since the last put(): what is set anew is drawn anew."""
+    seen = widget.__dict__.setdefault("put_options", {})
+    changed = {name: value for name, value in options.items() if name not in seen or seen[name] != value}
+    if changed:
+        widget.configure(**changed)
+        seen.update(changed)
+
+
 class Scrolled(ttk.Frame):
     """A frame that may be higher than its place: children go into `inner`."""
 
