@@ -5,12 +5,14 @@ The still layer is drawn when it or the view changes, the plot is added to it as
 moves is drawn over a copy of it.
 """
 
+import time
 import tkinter as tk
 from tkinter import font as tkfont
 
 import kerf_raster
 import numpy as np
-from kerf.glpath import PLOT_TAIL
+from kerf.glpath import EXACT_PX, PLOT_TAIL
+from kerf.pace import Pace
 
 NOTHING = (0, 0, 0, 0)
 
@@ -33,16 +35,33 @@ def paint(raster, items, matrix):
                         0, len(points), max(1, round(item.width)))
 
 
-def paint_still(raster, scene, matrix):
-    """The still layer without its labels."""
+def still_steps(raster, scene, matrix, pace, budget=0):
+    """Draws the still layer without its labels: with a budget (of vertices) at once, exact in slices. Ends with its
+    exactness."""
     raster.clear(rgba(scene.back))
     paint(raster, scene.before, matrix)
+    exact = True
     for drawing, palette in zip(scene.drawings, scene.palettes):
-        raster.draw_drawing(drawing, [rgba(c) for c in palette[:3]] + [NOTHING], matrix)
+        colours = [rgba(c) for c in palette[:3]] + [NOTHING]
+        level, first, count, _, good = drawing.choose(matrix, raster.width, raster.height, EXACT_PX, budget)
+        exact = exact and good
+        for part in [(first, count)] if budget else pace.slices(first, count):
+            began = time.monotonic()
+            raster.draw_pieces(drawing, colours, matrix, level, *part)
+            if not budget:
+                pace.slice_took(time.monotonic() - began)
+                yield None
     for number, first, last in scene.selected_spans:
         drawing = scene.drawings[number]
         raster.draw(drawing.vertices, drawing.kinds, [rgba(scene.selected)] * 3 + [NOTHING], matrix, first, last, 3)
     paint(raster, scene.after, matrix)
+    yield exact
+
+
+def paint_still(raster, scene, matrix):
+    """The still layer without its labels, exact."""
+    for _ in still_steps(raster, scene, matrix, Pace()):
+        pass
 
 
 class DrawnPicture(tk.Canvas):
@@ -55,7 +74,8 @@ class DrawnPicture(tk.Canvas):
         self.item = self.create_image(0, 0, anchor="nw")
         self.fonts = {}
         self.plotted = 0         # points of the plot that are in the still layer
-        self.exact = True
+        self.pace, self.exact, self.steps, self.fine = Pace(), True, None, None
+        self.began = None            # when the still layer was drawn that is not yet seen
 
     def font(self, size):
         if size not in self.fonts:
@@ -65,8 +85,12 @@ class DrawnPicture(tk.Canvas):
     def draw_still(self, scene, matrix, width, height, label_size):
         if self.layer is None or (self.layer.width, self.layer.height) != (width, height):
             self.layer, self.frame = kerf_raster.Raster(width, height), kerf_raster.Raster(width, height)
-        self.plotted = 0
-        paint_still(self.layer, scene, matrix)
+        self.plotted, self.began = 0, time.monotonic()
+        *_, self.exact = still_steps(self.layer, scene, matrix, self.pace, self.pace.budget)
+        self.steps = None
+        if not self.exact:
+            self.fine = kerf_raster.Raster(width, height)
+            self.steps = still_steps(self.fine, scene, matrix, self.pace)
         self.delete("label")
         for x, y, text, colour, box in scene.labels:
             made = self.create_text(x, y, text=text, fill=web(colour), font=self.font(label_size),
@@ -75,10 +99,17 @@ class DrawnPicture(tk.Canvas):
                 self.create_rectangle(*self.bbox(made), outline=web(colour), tags="label")
 
     def release(self, drawings):
-        """Nothing is kept beside the drawings."""
+        """drawings: these are gone, the picture stays as it is."""
+        if drawings:
+            self.steps = None
 
     def step(self):
-        return False
+        """One slice of the exact drawing; True when it is complete."""
+        if self.steps is None or next(self.steps) is None:
+            return False
+        self.layer, self.fine, self.steps = self.fine, None, None
+        self.plotted, self.exact = 0, True
+        return True
 
     def draw_frame(self, scene, matrix):
         r = self.frame
@@ -96,6 +127,9 @@ class DrawnPicture(tk.Canvas):
                                       stipple="gray75" if colour[3] < 1 else "", tags="text")
         for x, y, text, colour, size in scene.texts:
             self.create_text(x, y, text=text, fill=web(colour), font=self.font(size), anchor="nw", tags="text")
+        if self.began is not None:
+            self.pace.frame_took(time.monotonic() - self.began, self.exact)
+            self.began = None
         return True
 
     def draw_plot(self, scene):

@@ -16,13 +16,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .gltext import Glyphs
+from .pace import Pace
 
-MOVING_VERTICES = 40000      # of the first, quick drawing; adapted to what the driver does in FRAME_S
-LEAST_VERTICES, MOST_VERTICES = 500, 400000
-FRAME_S = 1 / 50
-SLICE_VERTICES = 8000        # of the first step towards the exact one; adapted to what the driver does in SLICE_S
-LEAST_SLICE, MOST_SLICE = 1000, 200000
-SLICE_S = 0.05
 EXACT_PX = 0.7
 USUAL_LETTERS_PX = 13        # with lines of one pixel
 PLOT_TAIL = 16               # points at the plot's end that may still change
@@ -116,7 +111,7 @@ class Renderer:
         self.steps = None            # the exact drawing that is going on
         self.plotted = 0
         self.exact = True
-        self.budget, self.slice = MOVING_VERTICES, SLICE_VERTICES
+        self.pace = Pace()
         self.thickness = 1           # pixels of a line, more where pixels are small
 
     # -- building blocks -------------------------------------------------------------------
@@ -246,23 +241,6 @@ class Renderer:
             else:
                 self.gl.glDrawArrays(self.gl.GL_LINE_STRIP, f, n)
 
-    def slices(self, first, count, most):
-        """The pieces in portions of at most most() vertices."""
-        part, left = ([], []), most()
-        for f, n in zip(first, count):
-            while n > 1:
-                take = min(n, left)
-                if take > 1:
-                    part[0].append(f)
-                    part[1].append(take)
-                    left -= take
-                    f, n = f + take - 1, n - take + 1
-                if left <= 1:
-                    yield part
-                    part, left = ([], []), most()
-        if part[0]:
-            yield part
-
     def until_drawn(self):
         """Pauses until the driver has drawn what it was given, and learns how much that may be: what waits in the
         driver takes memory, and keeps the screen waiting that draws its next frame."""
@@ -274,8 +252,7 @@ class Renderer:
                 yield None
         finally:
             gl.glDeleteSync(fence)
-        factor = min(2.0, max(0.25, SLICE_S / max(self.clock() - began, 1e-4)))
-        self.slice = int(min(MOST_SLICE, max(LEAST_SLICE, self.slice * factor)))
+        self.pace.slice_took(self.clock() - began)
 
     # -- items, texts, plot ----------------------------------------------------------------
 
@@ -390,7 +367,7 @@ class Renderer:
         for drawing, palette in zip(scene.drawings, scene.palettes):
             level, first, count, vertices, good = drawing.choose(matrix, *self.size, EXACT_PX, budget)
             exact = exact and good
-            for part in self.slices(first, count, lambda: self.slice if not budget else budget):
+            for part in [(first, count)] if budget else self.pace.slices(first, count):
                 self.layer(name)
                 self.use(self.path, matrix)
                 self.palette(palette)
@@ -422,19 +399,15 @@ class Renderer:
         self.steps = None
         self.plotted = 0
         last = None
-        for last in self.still_steps("still", scene, matrix, 0 if exact else self.budget, label_size):
+        for last in self.still_steps("still", scene, matrix, 0 if exact else self.pace.budget, label_size):
             pass
         self.exact = bool(last)
         if not self.exact:
-            self.slice = max(LEAST_SLICE, min(self.slice, int(self.budget * SLICE_S / FRAME_S)))
             self.steps = self.still_steps("fine", scene, matrix, 0, label_size)
 
     def took(self, seconds):
         """Tells how long a quick drawing took until it was seen: the next ones have more or fewer vertices."""
-        if self.exact and seconds < FRAME_S:
-            return                   # nothing was left out: nothing is learned
-        factor = min(1.3, max(0.3, FRAME_S / max(seconds, 1e-4)))
-        self.budget = int(min(MOST_VERTICES, max(LEAST_VERTICES, self.budget * factor)))
+        self.pace.frame_took(seconds, self.exact)
 
     def step(self):
         """One slice of the exact still layer. True: it is complete now and the frame should be drawn."""

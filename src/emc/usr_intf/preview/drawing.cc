@@ -393,12 +393,21 @@ Choice Drawing::choose(const Matrix &matrix, int width, int height, double pixel
 void Drawing::draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, double pixels) const
 {
     const Choice choice = choose(matrix, raster.width(), raster.height(), pixels, 0);
-    if (choice.first.empty()) return;
-    const Level &level = levels_[choice.level];
-    Path path{xyz_.data(), kinds_.data(), entries(level), 3};
-    if (level.tolerance > 0) path.index = level.index.data();
-    for (size_t i = 0; i < choice.first.size(); ++i)
-        raster.draw(path, palette, matrix, size_t(choice.first[i]), size_t(choice.first[i] + choice.count[i]));
+    draw(raster, palette, matrix, choice.level, choice.first, choice.count);
+}
+
+void Drawing::draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, size_t level,
+                   const std::vector<int32_t> &first, const std::vector<int32_t> &count) const
+{
+    if (first.empty()) return;
+    const Level &l = levels_.at(level);
+    Path path{xyz_.data(), kinds_.data(), entries(l), 3};
+    if (l.tolerance > 0) path.index = l.index.data();
+    for (size_t i = 0; i < first.size(); ++i) {
+        const size_t begin = size_t(first[i]), end = begin + size_t(count.at(i));
+        if (first[i] < 0 || count[i] < 0 || end > path.count) throw std::out_of_range("a piece is not in its level");
+        raster.draw(path, palette, matrix, begin, end);
+    }
 }
 
 std::vector<std::pair<uint32_t, uint32_t>> Drawing::spans(int32_t line) const

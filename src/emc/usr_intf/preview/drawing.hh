@@ -117,6 +117,9 @@ public:
     Choice choose(const Matrix &matrix, int width, int height, double pixels, size_t budget) const;
     /// Into a picture in memory, exact to `pixels`. palette: colours of kinds.
     void draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, double pixels) const;
+    /// Pieces of a level's list, as choose() gives them. Throws std::out_of_range.
+    void draw(Raster &raster, const std::vector<Rgba> &palette, const Matrix &matrix, size_t level,
+              const std::vector<int32_t> &first, const std::vector<int32_t> &count) const;
     /// [first, last) vertices of each stretch that a source line draws; `first` is where it starts from.
     std::vector<std::pair<uint32_t, uint32_t>> spans(int32_t line) const;
     /// Source line nearest to a pixel within `radius`, or -1. shown: bit k for kind k.

@@ -118,6 +118,16 @@ PYBIND11_MODULE(kerf_raster, m)
             },
             py::arg("drawing"), py::arg("palette"), py::arg("matrix"), py::arg("pixels") = 0.7,
             "A Drawing, exact to `pixels`.")
+        .def(
+            "draw_pieces",
+            [](Raster &r, const Drawing &d, const Palette &palette, const Matrix &matrix, size_t level,
+               const std::vector<int32_t> &first, const std::vector<int32_t> &count) {
+                const auto list = colours(palette);
+                py::gil_scoped_release release;
+                d.draw(r, list, matrix, level, first, count);
+            },
+            py::arg("drawing"), py::arg("palette"), py::arg("matrix"), py::arg("level"), py::arg("first"),
+            py::arg("count"), "Pieces of a level of a Drawing, as its choose() gives them. IndexError.")
         .def("draw_plot", &draw_plot, py::arg("records"), py::arg("matrix"), py::arg("first"), py::arg("last"),
              py::arg("second") = false,
              "Points first to last (exclusive) of linuxcnc.positionlogger.points(), 2 pixels wide.")
