@@ -64,29 +64,35 @@ class Camera:
 
 
 class Trace:
-    """Where the tool has been in the frame of the work."""
+    """Where the tool has been in the frame of the work: the last MAX_TRACE points, a block less when it was full."""
 
     def __init__(self, size):
         """Points nearer than a hundred thousandth of the size are the same (matrices of OpenGL are that exact)."""
-        self.points, self.near = [], size * 1e-5
+        self.rows, self.count, self.near = np.zeros((MAX_TRACE, 3)), 0, size * 1e-5
+
+    @property
+    def points(self):
+        """Array (n, 3)."""
+        return self.rows[:self.count]
 
     def add(self, tool, work):
         try:
-            point = tuple((invert(work.t) @ tool.t @ (0, 0, 0, 1))[:3])
+            point = (invert(work.t) @ tool.t @ (0, 0, 0, 1))[:3]
         except np.linalg.LinAlgError:       # the work is scaled to nothing
             return
-        if not all(math.isfinite(v) for v in point):
+        if not np.isfinite(point).all() or self.count and (abs(point - self.points[-1]) <= self.near).all():
             return
-        if not self.points or any(abs(a - b) > self.near for a, b in zip(point, self.points[-1])):
-            if len(self.points) >= MAX_TRACE:
-                del self.points[:MAX_TRACE // 10]
-            self.points.append(point)
+        if self.count == MAX_TRACE:
+            self.count -= MAX_TRACE // 10
+            self.rows[:self.count] = self.rows[MAX_TRACE // 10:].copy()
+        self.rows[self.count] = point
+        self.count += 1
 
     def clear(self):
-        self.points.clear()
+        self.count = 0
 
     def draw(self, work, width=TRACE_WIDTH):
-        if len(self.points) < 2:
+        if self.count < 2:
             return
         GL.glPushAttrib(GL.GL_ENABLE_BIT | GL.GL_CURRENT_BIT | GL.GL_LINE_BIT)
         GL.glDisable(GL.GL_LIGHTING)
@@ -95,8 +101,8 @@ class Trace:
         GL.glPushMatrix()
         GL.glLoadMatrixd(np.ascontiguousarray(work.t.T))
         GL.glEnableClientState(GL.GL_VERTEX_ARRAY)
-        GL.glVertexPointer(3, GL.GL_DOUBLE, 0, np.array(self.points))
-        GL.glDrawArrays(GL.GL_LINE_STRIP, 0, len(self.points))
+        GL.glVertexPointer(3, GL.GL_DOUBLE, 0, self.rows)
+        GL.glDrawArrays(GL.GL_LINE_STRIP, 0, self.count)
         GL.glDisableClientState(GL.GL_VERTEX_ARRAY)
         GL.glPopMatrix()
         GL.glPopAttrib()

@@ -24,8 +24,8 @@ HOURS, MINUTES = float(os.environ.get("HOURS", "24")), float(os.environ.get("MIN
 REST = float(os.environ.get("REST", "0"))
 REPORT = Path(os.environ.get("REPORT", TOP / "objects/tools-soak.txt"))
 MOST_KB, LEAST_KB = 2000, 400       # in a day; and what is never called growth, however short the run
-# What a tool keeps by intent: 131072 observations and 16000 points of a trace fill up first.
-BUFFERS_KB = {"mtconnect-agent": 32000, "vismach": 4000}
+# What a tool keeps by intent: 131072 observations fill up first.
+BUFFERS_KB = {"mtconnect-agent": 32000}
 LOOK_S = 20
 ONLY = [name for name in os.environ.get("TOOLS", "").split(",") if name]
 PROGRAM = ("T1 M6\no1 while [1]\nG10 L2 P1 X0.25\nT1 M6\nG0 X1\n(MSG, round)\nG1 F6000 X0 Y5\nG2 X0 Y0 I0 J-2.5\n"
