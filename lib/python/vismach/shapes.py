@@ -30,6 +30,8 @@ class Body:
     def draw(self):
         if self.list is not None:
             GL.glCallList(self.list)
+        elif len(self.arrays[0]) and GL.glGetIntegerv(GL.GL_LIST_INDEX):     # in a user's list
+            triangles(*self.arrays)
         elif len(self.arrays[0]):
             self.list = GL.glGenLists(1)
             GL.glNewList(self.list, GL.GL_COMPILE)

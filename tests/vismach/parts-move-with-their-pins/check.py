@@ -20,6 +20,7 @@ os.environ.update(session.env)
 sys.path.insert(0, str(TOP / "lib/python"))
 import numpy as np  # noqa: E402
 import vismach as v  # noqa: E402
+from OpenGL import GL  # noqa: E402
 from vismach import parts  # noqa: E402
 from vismach.view import MAX_TRACE, View  # noqa: E402
 
@@ -178,6 +179,23 @@ def shapes(b: Bench) -> None:
         except TypeError as error:
             if part not in str(error):
                 mistakes.append(str(error))
+    class Listed:
+        """A user's own display list of our shapes."""
+        number = None
+
+        def draw(self):
+            if self.number is None:
+                self.number = GL.glGenLists(1)
+                GL.glNewList(self.number, GL.GL_COMPILE)
+                v.Box(-5, -5, -5, 5, 5, 5).draw()
+                GL.glEndList()
+            GL.glCallList(self.number)
+    b.draw()
+    ground = b.pixels(200, 200, 1, 1)
+    for _ in range(2):
+        b.draw(Listed())
+        check("a shape in a user's display list is drawn", b.pixels(200, 200, 1, 1) != ground, True)
+
     class Tool(v.CylinderZ):
         """As scripts of users have it."""
 
