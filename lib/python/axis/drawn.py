@@ -101,7 +101,7 @@ class DrawnPicture(tk.Canvas):
     def release(self, drawings):
         """drawings: these are gone, the picture stays as it is."""
         if drawings:
-            self.steps = None
+            self.steps, self.exact = None, True      # as exact as it will be
 
     def step(self):
         """One slice of the exact drawing; True when it is complete."""

@@ -44,7 +44,7 @@ class GLPicture(gl.Frame):
         self.window.make_current()
         self.renderer.forget()
         if drawings:
-            self.renderer.steps = None
+            self.renderer.steps, self.renderer.exact = None, True        # as exact as it will be
 
     def draw_frame(self, scene, matrix):
         self.window.make_current()
