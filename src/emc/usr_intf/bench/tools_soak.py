@@ -123,7 +123,9 @@ class Soak:
 
     def start(self, name, words, env, cwd=None, **how):
         log = open(self.scratch / f"{name}.log", "w")
-        options = {"stdin": subprocess.DEVNULL, "stdout": log, "stderr": log} | how
+        # what takes part in virtual time has one processor; these do not
+        options = {"stdin": subprocess.DEVNULL, "stdout": log, "stderr": log,
+                   "preexec_fn": lambda: os.sched_setaffinity(0, range(os.cpu_count()))} | how
         return subprocess.Popen(words, env=env, cwd=cwd, **options)
 
     def window(self, name, words, hand="", session=None, cwd=None, size=""):
