@@ -22,18 +22,16 @@ def script(op):
     op.hold("Left")
     op.wait(0.3)
     print("moves:", abs(op.stat.joint[0]["velocity"]) > 0, file=out)
-    session.kill("milltask")
-    try:
-        for _ in range(500):
-            clock.sleep(0.02)
-            if not op.app.tick() or not enabled():
-                break
-        else:
-            print("nothing happened within 10 s", file=out)
-    except KeyboardInterrupt:            # the launcher ends the screen
-        pass
+    ended = []                           # the launcher ends the screen
     for end in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(end, signal.SIG_IGN)
+        signal.signal(end, lambda *_: ended.append(True))
+    session.kill("milltask")
+    for _ in range(500):
+        clock.sleep(0.02)
+        if ended or not op.app.tick() or not enabled():
+            break
+    else:
+        print("nothing happened within 10 s", file=out)
     print("joint enabled:", enabled(), file=out)
     os._exit(0)
 
