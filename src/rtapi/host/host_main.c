@@ -242,6 +242,10 @@ static int client(int fd, int argc, char **argv, int limit_s, bool start)
     struct timeval limit = {limit_s, 0};
     setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     if (!send_words(fd, argc, argv)) {
+        close(fd);
+        if (start) {
+            return NO_DAEMON;
+        }
         fprintf(stderr, "rtapi_app: failed to write to master\n");
         return 255;
     }
