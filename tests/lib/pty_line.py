@@ -21,17 +21,20 @@ class PtyLine:
         if os.path.islink(self.link):
             os.unlink(self.link)
         os.symlink(os.ttyname(self.other), self.link)
-        threading.Thread(target=self.serve, args=(self.end,), daemon=True).start()
+        self.plugged = object()
+        threading.Thread(target=self.serve, args=(self.end, self.plugged), daemon=True).start()
 
     def unplug(self):
+        """What is written from now on is lost: the kernel keeps the line until the read that waits on it returns."""
+        self.plugged = None
         os.unlink(self.link)
         os.close(self.other)
         os.close(self.end)
 
-    def serve(self, end):
+    def serve(self, end, plugged):
         data = b""
         try:
-            while more := os.read(end, 256):
+            while (more := os.read(end, 256)) and self.plugged is plugged:
                 data = self.take(data + more, lambda answer: os.write(end, answer))
         except OSError:
             pass
