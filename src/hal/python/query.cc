@@ -308,11 +308,25 @@ py::object get_value(const std::string &name)
     throw std::runtime_error(std::string(op) + ": " + name + ": " + hal_strerror(result));
 }
 
-// The conversion failed: the documented text, with the reason as the cause.
+// Text of a hexadecimal number, as setp of halcmd takes it, becomes a number; anything else stays.
+py::object without_hexadecimal(py::handle value, hal_type_t type)
+{
+    if (PyUnicode_Check(value.ptr()) && type != HAL_BIT) {
+        auto word = py::cast<std::string>(value);
+        if (word.find("0x") != word.npos || word.find("0X") != word.npos) {
+            auto builtins = py::module_::import("builtins");
+            if (type == HAL_FLOAT) return builtins.attr("float").attr("fromhex")(value);
+            return builtins.attr("int")(value, 0);
+        }
+    }
+    return py::reinterpret_borrow<py::object>(value);
+}
+
+// Where the conversion fails: the documented text, with the reason as the cause.
 hal_query_value_u converted(const char *op, const std::string &name, py::handle value, hal_type_t type)
 {
     try {
-        return from_python(value, type, "'" + name + "'");
+        return from_python(without_hexadecimal(value, type), type, "'" + name + "'");
     } catch (py::error_already_set &e) {
         std::string message = std::string(op) + ": " + name + ": " + hal_strerror(-EINVAL);
         py::raise_from(e, PyExc_RuntimeError, message.c_str());

@@ -84,7 +84,7 @@ print(hal.new_sig("s", hal.HAL_FLOAT), hal.new_sig("s", hal.HAL_FLOAT), hal.conn
 print(hal.pin_has_writer("c.in"), hal.pin_has_writer("c.tx"), hal.disconnect("c.in"), hal.disconnect("none"))
 show("has writer", hal.pin_has_writer, "none")
 show("bad signal", hal.new_sig, "q", 8)
-for name, value in (("c.u32", 5), ("c.u32", "6"), ("c.u32", "x"), ("c.s32", 5), ("none", 5), ("c.rx", 5), ("c.par", 1)):
+for name, value in (("c.u32", 5), ("c.u32", "6"), ("c.u32", "x"), ("c.u32", "0xFF"), ("c.u32", "0xG"), ("c.u32", "0x1FFFFFFFF"), ("c.in", "0x10"), ("c.s32", 5), ("none", 5), ("c.rx", 5), ("c.par", 1)):
     show("set_p %s %r" % (name, value), hal.set_p, name, value)
 for name, value in (("s", 2.5), ("s", "x"), ("none", 1), ("port", 9)):
     show("set_s %s %r" % (name, value), hal.set_s, name, value)
