@@ -17,6 +17,7 @@ for c in *.comp; do
     ls "$folder/${c%.comp}".[19] > /dev/null
 done
 /usr/bin/python3 -B ../../components/tables.py run.table
+grep -A 1 'NAME\|AUTHOR' "$folder/lubricator.9"
 cat > "$folder/user.hal" <<END
 loadusr -W $folder/readbutton 16 names=first
 setp first.quit 1

@@ -21,3 +21,26 @@ halcompile -d -k x.adoc bad.comp other.comp 2>&1; echo "status $?"
 halcompile --print-modinc bad.comp 2>&1; echo "status $?"
 halcompile missing.comp 2>&1; echo "status $?"
 halcompile --nonsense bad.comp 2>&1 >/dev/null | tail -n 1
+
+# What the C compiler finds, also in declarations, and what else may define a function.
+cat > bad.comp <<'END'
+component bad;
+pin in bit a;
+pin out float b = NO_START;
+variable no_type_t v;
+variable int n = NO_VALUE;
+modparam int m = NO_DEFAULT;
+option data no_data_t;
+function calc;
+license "GPL";
+;;
+FUNCTION(calc) { a = 1; }
+END
+LC_ALL=C halcompile --compile bad.comp 2>&1 | sed 's/; did you mean.*//' | grep -A 1 error
+printf 'component bad; pin in bit a; license "GPL";\ninclude <no_header.h>;\n;;\n' > bad.comp
+LC_ALL=C halcompile --compile bad.comp 2>&1 | sed 's/; did you mean.*//' | grep -A 1 error
+printf 'static void calc(struct __comp_state *__comp_inst, long period);\n' > calc.h
+printf 'component bad; pin in bit a; function calc; license "GPL";\n;;\n/* FUNCTION */\n#include "calc.h"\n' > bad.comp
+halcompile bad.comp; echo "status $?"
+printf 'component bad; pin in bit a; function f1; license "GPL";\n;;\n#define F(n) FUNCTION(f##n)\nF(1) {}\n' > bad.comp
+halcompile bad.comp; echo "status $?"

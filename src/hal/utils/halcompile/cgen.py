@@ -12,6 +12,7 @@ from __future__ import annotations
 from io import StringIO
 
 from .checker import TYPES, Component, integer
+from .errors import line_and_column
 from .names import c_name, component_prefix, hal_format
 from .nodes import Function, Item, Text, Value, Variable
 
@@ -37,7 +38,8 @@ def c_string(text: str) -> str:
 
 def start_text(value: Value | None, item_type: str) -> str:
     if value is not None:
-        return str(int(value.truth)) if value.kind == "BOOL" else value.text
+        octal = value.kind == "NUMBER" and value.text[:2] in ("0o", "0O")
+        return str(int(value.truth)) if value.kind == "BOOL" else "0" + value.text[2:] if octal else value.text
     return {"bit": "0", "bool": "0", "float": "0.0", "real": "0.0"}.get(item_type, "0")
 
 
@@ -45,11 +47,22 @@ class Generator:
     def __init__(self, component: Component, personalities: int = 64):
         self.comp = component
         self.out = StringIO()
+        self.lines = 0                          # of the output until now
         self.max_personalities = personalities
         self.export_takes_personality = component.uses_personality
 
     def put(self, text: str = "") -> None:
         self.out.write(text + "\n")
+        self.lines += text.count("\n") + 1
+
+    def put_source(self, before: str, text: str, offset: int, after: str) -> None:
+        """A line with text of the component's file, so that messages of the compiler about it name
+        its place there."""
+        line, column = line_and_column(self.comp.text, offset)
+        if before:
+            self.put(before)
+        self.put(f"#line {line} {c_string(self.comp.filename)}\n{' ' * (column - 1)}{text}{after}")
+        self.put(f"#line {self.lines + 2} {c_string(self.comp.name + '.c')}")
 
     def generate(self) -> str:
         self.includes()
@@ -80,7 +93,7 @@ class Generator:
         if self.comp.userspace:
             self.put("#include <stdlib.h>")
         for include in self.comp.includes:
-            self.put(f"#include {include.header}")
+            self.put_source("", f"#include{include.header}", include.offset - len("#include"), "")
         self.put("\nstatic int comp_id;")
 
     def module_info(self) -> None:
@@ -113,8 +126,11 @@ class Generator:
         comp = self.comp
         for param in comp.modparams:
             if param.type == "int":
-                default = f" = {start_text(param.default, 'int')}" if param.default else ""
-                self.put(f"static int {param.name}{default};")
+                if param.default:
+                    self.put_source(f"static int {param.name} =", start_text(param.default, "int"),
+                                    param.default.offset, ";")
+                else:
+                    self.put(f"static int {param.name};")
                 self.put(f"RTAPI_MP_INT({param.name}, {c_string(param.doc or '')});")
         self.put("struct __comp_state {")
         self.put("    struct __comp_state *_next;")
@@ -131,7 +147,7 @@ class Generator:
                 self.put(f"    hal_{hal_type}_t {star}{name}{size};")
         for variable in comp.variables:
             size = f"[{variable.size}]" if variable.size is not None else ""
-            self.put(f"    {variable.ctype} {variable.stars}{variable.name}_p{size};")
+            self.put_source("", variable.ctype, variable.ctype_offset, f" {variable.stars}{variable.name}_p{size};")
         if comp.option("data"):
             self.put("    char _data[] __attribute__((aligned(16)));")
         self.put("};")
@@ -235,15 +251,23 @@ class Generator:
         args = ", ".join(name_args)
         direction = DIRECTION[item.direction]
         start = start_text(item.start, item.type)
+        named = item.start is not None and item.start.kind == "NAME"
         if new:
-            self.put(f"{indent}__comp_r = hal_{item.kind}_new_{hal_type}(comp_id, {direction}, "
-                     f"&({ref}), {start}, {args});")
+            call = f"{indent}__comp_r = hal_{item.kind}_new_{hal_type}(comp_id, {direction}, &({ref}), "
+            if named:
+                self.put_source(call, start, item.start.offset, f", {args});")
+            else:
+                self.put(f"{call}{start}, {args});")
         else:
             self.put(f"{indent}__comp_r = hal_{item.kind}_{hal_type}_newf({direction}, &({ref}), "
                      f"comp_id, {args});")
         self.put(f"{indent}if(__comp_r) return __comp_r;")
         if not new and hal_type != "port" and (item.kind == "pin" or item.start):
-            self.put(f"{indent}{'*' if item.kind == 'pin' else ''}({ref}) = {start};")
+            assignment = f"{indent}{'*' if item.kind == 'pin' else ''}({ref}) ="
+            if named:
+                self.put_source(assignment, start, item.start.offset, ";")
+            else:
+                self.put(f"{assignment} {start};")
         if item.array:
             indent = indent[:-4]
             self.put(indent + "}")
@@ -263,11 +287,12 @@ class Generator:
         else:
             text = value.text
         place = f"__comp_inst->{variable.name}_p"
-        if variable.size is None:
-            self.put(f"    {place} = {text};")
+        if variable.size is not None:
+            place = f"for(__comp_i = 0; __comp_i < {variable.size}; __comp_i++) {place}[__comp_i]"
+        if value.kind == "NAME":
+            self.put_source(f"    {place} =", text, value.offset, ";")
         else:
-            self.put(f"    for(__comp_i = 0; __comp_i < {variable.size}; __comp_i++) "
-                     f"{place}[__comp_i] = {text};")
+            self.put(f"    {place} = {text};")
 
     def _export_function(self, function: Function) -> None:
         fmt = hal_format(function.name)
@@ -285,7 +310,7 @@ class Generator:
         prefix = c_string(component_prefix(comp.name))
         named = not comp.singleton
         if named:
-            default = int(comp.option("default_count", 1))
+            default = comp.option("default_count", 1)
             if not comp.option("count_function"):
                 self.put(f"static int default_count = {default}, count = 0;")
                 self.put(f"RTAPI_MP_INT(count, {c_string('number of ' + comp.name)});")
@@ -406,7 +431,7 @@ class Generator:
         self.put(f"    comp_id = hal_init({c_string(comp.name)});")
         self.put("    if(comp_id < 0) return comp_id;")
         if named:
-            default = int(comp.option("default_count", 1))
+            default = comp.option("default_count", 1)
             self.put("    int i;")
             if comp.option("count_function"):
                 self.put("    count = get_count();")
@@ -527,8 +552,8 @@ class Generator:
         if comp.body_is_function:
             self.put("}")
         if comp.option("data"):
-            self.put("static int __comp_get_data_size(void) "
-                     f"{{ return sizeof({comp.option('data')}); }}")
+            self.put_source("static int __comp_get_data_size(void) { return sizeof(", str(comp.option("data")),
+                            comp.option_offsets["data"] + len("data "), "); }")
 
 
 def generate(component: Component, personalities: int = 64) -> str:

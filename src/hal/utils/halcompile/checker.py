@@ -7,15 +7,27 @@ rules about names, counts, options and code are here.
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from dataclasses import dataclass, field
 
 from .errors import CompError, line_and_column, warn
+from .names import c_name
 from .nodes import (File, Function, Include, Item, ModParam, Option, Text, Value, Variable)
 
 RESERVED = ("comp_id", "fperiod", "rtapi_app_main", "rtapi_app_exit", "extra_setup",
             "extra_cleanup", "post_export")
+
+COUNTS = ("default_count", "default_personality")
+
+# option -> names of the function that the code must define then, and how it begins
+BODIES = {"extra_setup": (("extra_setup", "EXTRA_SETUP"), "EXTRA_SETUP()"),
+          "extra_cleanup": (("extra_cleanup", "EXTRA_CLEANUP"), "EXTRA_CLEANUP()"),
+          "post_export": (("post_export", "POST_EXPORT"), "POST_EXPORT()"),
+          "count_function": (("get_count",), "int get_count(void)"),
+          "userspace": (("user_mainloop",), "void user_mainloop(void)"),
+          "userinit": (("userinit",), "void userinit(int argc, char **argv)")}
 
 # .comp type -> (type in HAL's function names, new access style)
 TYPES = {
@@ -42,8 +54,10 @@ class Component:
     includes: list[Include] = field(default_factory=list)
     texts: dict[str, list[str]] = field(default_factory=dict)
     options: dict[str, object] = field(default_factory=dict)   # int, str or C identifier
+    option_offsets: dict[str, int] = field(default_factory=dict)
     declarations: list = field(default_factory=list)           # in order of the file
     filename: str = ""
+    text: str = ""                                             # of the whole file
     code: str = ""
     code_line: int = 1
     body_is_function: bool = False                             # code is the body of the one function
@@ -108,7 +122,10 @@ def _check_item_name(item: Item) -> None:
 def _add_option(component: Component, option: Option) -> None:
     if option.name in component.options:
         raise CompError(f"Duplicate option name {option.name}", option.offset)
+    if option.name in COUNTS and option.value and option.value.kind == "STRING":
+        raise CompError(f"Option {option.name} must be a number", option.value.offset)
     component.options[option.name] = option_value(option.value)
+    component.option_offsets[option.name] = option.offset
 
 
 def _check_code(component: Component) -> None:
@@ -120,6 +137,23 @@ def _check_code(component: Component) -> None:
     component.body_is_function = True
 
 
+def check_bodies(component: Component) -> None:
+    """What is declared must be defined: such a module would be built, but never load.
+    Nothing is said where a macro or a header of the user's may define it."""
+    code = component.code
+    headers = re.findall(r'^\s*#\s*include\s*["<]([^">\n]+)', code, re.M) + [i.header[1:-1] for i in component.includes]
+    folder = os.path.dirname(component.filename)
+    if "##" in code or any(os.path.exists(os.path.join(folder, header)) for header in headers):
+        return
+    wanted = [((c_name(f.name),), f"FUNCTION({f.name})", f.offset)
+              for f in component.functions if not component.body_is_function]
+    wanted += [(words, text, component.option_offsets[option]) for option, (words, text) in BODIES.items()
+               if component.option(option) and (component.userspace or option != "userinit")]
+    for words, text, offset in wanted:
+        if not re.search(rf"\b(?:{'|'.join(words)})\b", code):
+            raise CompError(f"Missing after the line \";;\": {text} {{ ... }}", offset)
+
+
 def check(tree: File, expected_name: str | None = None,
           extra_options: dict[str, str] | None = None) -> Component:
     """Checks a tree. expected_name: base name of the file that is written, which
@@ -129,7 +163,7 @@ def check(tree: File, expected_name: str | None = None,
         raise CompError(f"Component name ({declared.name}) does not match filename ({expected_name})",
                         declared.offset)
     component = Component(declared.name, declared.doc, declarations=tree.declarations,
-                          filename=tree.name, code=tree.code, code_line=tree.code_line)
+                          filename=tree.name, text=tree.text, code=tree.code, code_line=tree.code_line)
     component.options.update(extra_options or {})
     names: set[str] = set()
 

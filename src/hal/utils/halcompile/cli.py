@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import getopt
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
 
 from . import adoc, build, cgen, man
-from .checker import Component, check
+from .checker import Component, check, check_bodies
 from .errors import CompError, UsageError, describe
 from .parser import parse_text
 
@@ -114,11 +115,20 @@ def parse_arguments(argv: list[str]) -> Request | None:
     return request
 
 
+def decoded(data: bytes) -> str:
+    """Text of a file: UTF-8, with or without a byte order mark, or Latin-1 as older editors wrote it."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
 def load(filename: str, expected_name: str | None, request: Request) -> Component:
     """Reads, parses and checks a file; a mistake is reported and ends the program."""
     try:
-        with open(filename, encoding="utf-8", errors="surrogateescape") as f:
-            text = f.read()
+        with open(filename, "rb") as f:
+            text = decoded(f.read())
     except OSError as error:
         raise UsageError(f"{filename}: {error.strerror}") from None
     extra = {}
@@ -127,7 +137,10 @@ def load(filename: str, expected_name: str | None, request: Request) -> Componen
     if request.extra_link_args:
         extra["extra_link_args"] = request.extra_link_args
     try:
-        return check(parse_text(filename, text), expected_name, extra)
+        component = check(parse_text(filename, text), expected_name, extra)
+        if request.mode in ("preprocess", "compile", "install"):
+            check_bodies(component)
+        return component
     except CompError as error:
         raise UsageError(describe(error, filename, text)) from None
 
@@ -138,7 +151,7 @@ def base_name(filename: str) -> str:
 
 def write_if_changed(path: str, text: str) -> None:
     """Keeps the time of a file whose content is the same: make rebuilds less."""
-    data = text.encode("utf-8", "surrogateescape")
+    data = text.encode("utf-8")
     try:
         with open(path, "rb") as f:
             if f.read() == data:
@@ -176,7 +189,7 @@ def install_document(filename: str, request: Request) -> None:
     print("INSTALLDOC None")
     component = load(filename, base_name(filename), request)
     number = adoc.section_number(component)
-    with tempfile.NamedTemporaryFile("w", suffix=f".{number}", delete=False) as f:
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8", suffix=f".{number}", delete=False) as f:
         f.write(man.render(component))
     try:
         build.install_file(f.name, build.man_dir(number), f"{component.name}.{number}", 0o644)
@@ -188,7 +201,7 @@ def view_document(filename: str, request: Request) -> None:
     component = load(filename, base_name(filename), request)
     with tempfile.TemporaryDirectory() as directory:
         page = os.path.join(directory, f"{component.name}.{adoc.section_number(component)}")
-        with open(page, "w") as f:
+        with open(page, "w", encoding="utf-8") as f:
             f.write(man.render(component))
         subprocess.call(["man", page])
 
@@ -201,8 +214,12 @@ def compile_file(filename: str, request: Request) -> None:
         if extension == ".comp":
             component = load(filename, name, request)
             c_file = os.path.join(workdir, name + ".c")
-            with open(c_file, "w", encoding="utf-8", errors="surrogateescape") as f:
+            with open(c_file, "w", encoding="utf-8") as f:
                 f.write(cgen.generate(component, request.personalities))
+            if not os.path.isabs(filename) and os.pardir not in filename.split(os.sep):
+                # where the compiler's messages find the lines that they show
+                os.makedirs(os.path.join(workdir, os.path.dirname(filename)), exist_ok=True)
+                shutil.copy(filename, os.path.join(workdir, filename))
             userspace = component.userspace
             compile_args = str(component.option("extra_compile_args", ""))
             link_args = str(component.option("extra_link_args", ""))

@@ -24,7 +24,7 @@ KINDS = {
     "FPNUMBER": re.compile(
         r"[-+]?(?:(?:[0-9]*\.[0-9]+|[0-9]+\.)(?:[Ee][-+]?[0-9]+)?|[0-9]+[Ee][-+]?[0-9]+)[fF]?"),
     "NUMBER": re.compile(r"0[xX][0-9a-fA-F]+|0[bB][01]+|0[oO][0-7]+|[-+]?[0-9]+"),
-    "STRING": re.compile(r'r?"""(?:\\.|[^\\])*?"""|"(?:\\.|[^\\"])*"', re.S),
+    "STRING": re.compile(r'r?"""(?:\\.|[^\\])*?"""|"(?!"")(?:\\.|[^\\"])*"', re.S),
     "HEADER": re.compile(r'"[^"\n]*"|<[^>\n]*>'),
     "OPERATOR": re.compile(r"&&|\|\||==|!=|<<|>>|<=|>=|[-()+*/:?&<>]"),
     "CONDNUMBER": re.compile(r"0[xX][0-9a-fA-F]+|0[bB][01]+|0[oO][0-7]+|[0-9]+"),
@@ -51,6 +51,8 @@ class Lexer:
         blank = _BLANK.match(self.text, self.offset)
         if blank:
             self.offset = blank.end()
+        if self.text.startswith("/*", self.offset):
+            raise CompError("Comment without end", self.offset)
         return self.offset
 
     def peek(self, *kinds: str) -> Token | None:

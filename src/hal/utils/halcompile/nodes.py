@@ -70,6 +70,7 @@ class Function:
 @dataclass
 class Variable:
     ctype: str
+    ctype_offset: int
     stars: str
     name: str
     size: int | None

@@ -19,6 +19,7 @@ One method per rule; `_rules` is the stack of rules for messages.
 
 from __future__ import annotations
 
+import re
 from contextlib import contextmanager
 
 from .errors import CompError
@@ -31,7 +32,8 @@ TYPES = ("float", "bit", "signed", "s32", "unsigned", "u32", "s64", "u64", "port
 TEXT_SECTIONS = ("description", "examples", "notes", "see_also", "author", "license")
 DECLARATIONS = ("pin", "param", "function", "variable", "option", "modparam", "include") + TEXT_SECTIONS
 BOOLS = ("yes", "no", "true", "false", "TRUE", "FALSE")
-SEPARATOR = "\n;;\n"
+# What people's editors leave around the line counts only where no exact one is.
+SEPARATORS = (re.compile(r"^;;(?:\n|\Z)", re.M), re.compile(r"^[ \t]*;;[ \t]*(?:\n|\Z)", re.M))
 
 
 class Parser:
@@ -49,6 +51,8 @@ class Parser:
 
     def _fail(self, expected: tuple[str, ...]):
         offset = self.lexer.skip()
+        if "STRING" in expected and self.lexer.text.startswith('"', offset):
+            raise CompError("String without end", offset, self._rules[::-1])
         names = ", ".join(k if k.isupper() else f'"{k}"' for k in expected)
         raise CompError(f"Trying to find one of {names}", offset, self._rules[::-1])
 
@@ -143,13 +147,29 @@ class Parser:
         with self._rule("Condition"):
             start = self.lexer.skip()
             tokens = []
+            open_parts: list[str] = []          # of "(" and "?"
+            operand = False                     # whether one has just ended
             while True:
-                token = self._accept("OPERATOR", "CONDNUMBER", "personality")
-                if token is None:
+                token = self.lexer.peek("OPERATOR", "CONDNUMBER", "personality")
+                if token is None or (token.kind == "OPERATOR" and not operand and token.text not in ("(", "-", "+")
+                                     and tokens[-1:] + [token.text] != ["?", ":"]):
                     break
-                tokens.append(token.text)
+                if operand and (token.kind != "OPERATOR" or token.text == "("):
+                    self._fail(("OPERATOR", ";"))
+                if token.text in (")", ":") and open_parts[-1:] != [{")": "(", ":": "?"}[token.text]]:
+                    self._fail(("OPERATOR", ";"))
+                if token.text in ("(", "?"):
+                    open_parts.append(token.text)
+                elif token.text in (")", ":"):
+                    open_parts.pop()
+                operand = token.kind != "OPERATOR" or token.text == ")"
+                tokens.append(self.lexer.take(token).text)
             if self.lexer.peek("NAME") and self.lexer.peek("if") is None:
                 self._fail(("OPERATOR", "NUMBER", "personality", ";"))
+            if (tokens or token) and not operand:
+                self._fail(("NUMBER", "personality", "("))
+            if open_parts:
+                self._fail((")" if open_parts[-1] == "(" else ":",))
             return Condition(tuple(tokens), start) if tokens else None
 
     def value(self, kinds: tuple[str, ...]) -> Value:
@@ -169,7 +189,7 @@ class Parser:
 
     def declare_variable(self, _word: Token) -> Variable:
         with self._rule("VariableDeclaration"):
-            ctype = self._need("NAME").text
+            ctype = self._need("NAME")
             starred = self._need("STARREDNAME")
             name = starred.text.lstrip("*")
             size = None
@@ -181,7 +201,7 @@ class Parser:
             if self._need("=", ";").kind == "=":
                 value = self.value(BOOLS + ("NAME", "FPNUMBER", "NUMBER"))
                 self._need(";")
-            return Variable(ctype, starred.text[:len(starred.text) - len(name)], name, size, value,
+            return Variable(ctype.text, ctype.offset, starred.text[:len(starred.text) - len(name)], name, size, value,
                             starred.offset)
 
     def declare_option(self, _word: Token) -> Option:
@@ -200,20 +220,18 @@ class Parser:
             default = self.value(BOOLS + ("NAME", "FPNUMBER", "NUMBER")) if self._accept("=") else None
             return ModParam(param_type, name.text, default, self._doc_and_end(), name.offset)
 
-    def declare_include(self, word: Token) -> Include:
+    def declare_include(self, _word: Token) -> Include:
         with self._rule("IncludeDeclaration"):
-            header = self._need("HEADER").text
+            header = self._need("HEADER")
             self._need(";")
-            return Include(header, word.offset)
+            return Include(header.text, header.offset)
 
 
 def parse_text(name: str, text: str) -> File:
     """Parses the text of file `name`. Raises CompError."""
-    if SEPARATOR in text:
-        head, code = text.split(SEPARATOR, 1)
-    elif text.endswith("\n;;"):
-        head, code = text[:-3], ""
-    else:
+    separator = next(filter(None, (s.search(text) for s in SEPARATORS)), None)
+    if separator is None:
         raise CompError('Missing the line ";;" between declarations and code')
-    component, declarations = Parser(head + "\n").file()
-    return File(name, text, component, declarations, code, head.count("\n") + 3)
+    head, code = text[:separator.start()], text[separator.end():]
+    component, declarations = Parser(head).file()
+    return File(name, text, component, declarations, code, head.count("\n") + 2)

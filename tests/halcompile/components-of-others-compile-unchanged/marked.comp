@@ -1,0 +1,7 @@
+﻿component marked;
+pin in bit a;
+pin out bit b = FALSE "ünïcode";
+function _;
+license "GPL";
+;;
+b = !a;
