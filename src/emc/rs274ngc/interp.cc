@@ -272,6 +272,7 @@ int ngc::run_inner(Setup &s, const char *text)
     memcpy(raw, s.raw, sizeof raw);
     memcpy(canonical, s.text, sizeof canonical);
     const int raw_length = s.raw_length, number = s.sequence_number, level = s.call_level;
+    const int pos = s.pos, word_start = s.word_start;
     const int64_t line_offset = s.line_offset, after_offset = s.after_offset;
     std::string skipping;
     std::swap(skipping, s.skipping);
@@ -289,6 +290,8 @@ int ngc::run_inner(Setup &s, const char *text)
         memcpy(s.raw, raw, sizeof raw);
         memcpy(s.text, canonical, sizeof canonical);
         s.raw_length = raw_length;
+        s.pos = pos;
+        s.word_start = word_start;
         s.sequence_number = number;
         s.line_offset = line_offset;
         s.after_offset = after_offset;

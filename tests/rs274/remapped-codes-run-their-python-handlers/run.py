@@ -147,4 +147,39 @@ for body, shown in (("    undefined_name()\n", "NameError"), ("    yield INTERP_
     r = with_handler(body)
     check(r.status == 1 and shown in r.err and "remap.py" in r.err and re.search(r"line \d+", r.err), body + r.err)
     check([a[0] for n, a in r.moves()] in ([1], []), r.out)
+
+# A handler that gives no status ends the program there, with its reason; whatever it is, the interpreter lives on.
+for body, shown in (("return -1", "the handler returned -1 without a message"),
+                    ("self.set_errormsg('no air')\n    return -2", "no air"),
+                    ("return INTERP_ENDFILE", "the handler returned 3 without a message"),
+                    ("return 2**40", "Unable to cast"), ("yield 2**40", "Unable to cast"),
+                    ("return 'a\\udcff'", "a\\udcff"), ("raise ValueError('a\\udcff')", "ValueError: a\\udcff"),
+                    ("yield", "Python generator m408 yielded 'None' - expected int, got NoneType"),
+                    ("yield 2\n    yield -3", "the handler returned -3 without a message")):
+    r = with_handler(f"    {body}\n")
+    check(r.status == 1 and shown in r.err and [a[0] for n, a in r.moves()] == [1], (body, r.status, r.err, r.out))
+r = with_handler("    return INTERP_EXECUTE_FINISH\n")
+check(r.status == 0 and [a[0] for n, a in r.moves()] == [1, 2], r.err)
+for handler, shown in (("prolog", "low air"), ("epilog", "low air")):
+    files = dict(FILES)
+    files["python/remap.py"] += "def low(self, **words):\n    self.set_errormsg('low air')\n    return -1\n"
+    r = rs274("M408\n(print,%d#<_call_level>)\nM2\n", files=files,
+              ini=INI.replace("[RS274NGC]\n", f"[RS274NGC]\nREMAP=M408 modalgroup=10 {handler}=low ngc=sub\n"))
+    check(r.status == 1 and r.error == shown and "0" not in r.printed, (handler, r.err, r.out))
+for program in ("o<huge> call", "G0 X#<_huge>", "(pyrun,nothere.py)"):
+    files = dict(FILES, **{"python/oword.py": "def huge(self):\n    return 10**400\n",
+                           "python/namedparams.py": "def _huge(self):\n    return 10**400\n"})
+    r = rs274(program + "\nM2\n", ini=INI, files=files)
+    check(r.status == 1 and program in r.err.split("\n"), (program, r.status, r.err))
+
+# What an O-word sub yields after it has waited is its value; it may wait more than once.
+for body, value in (("yield 2\n    yield 1", "1 1"), ("yield 2\n    yield 0", "0 1"), ("yield 2\n    yield 5", "5 1"),
+                    ("yield 2\n    yield 2\n    yield 3.0", "3 1"), ("yield 2", "0 0"), ("yield 2\n    yield", "0 0")):
+    r = rs274("o<later> call\n(print,%d#<_value> #<_value_returned> level #<_call_level>)\nM2\n", ini=INI,
+              files=dict(FILES, **{"python/oword.py": f"def later(self):\n    {body}\n"}))
+    check(r.status == 0 and value + " level 0" in r.printed, (body, r.printed, r.err))
+
+# Statements of a comment may execute lines; the comment's own line goes on behind them.
+r = run(";py,this.execute('G0 X3')\n;py,this.execute('o<sub> call [4]')\nG0 X4\nM2\n")
+check(r.status == 0 and [a[0] for n, a in r.moves()] == [3, 4] and "in sub 4.000000" in r.printed, (r.err, r.out))
 done()

@@ -49,13 +49,19 @@ void start_python()
 
 std::string type_name(const py::handle &h) { return py::str(h.get_type().attr("__name__")); }
 
+// str() of anything; characters that UTF-8 has not are escaped.
+std::string text_of(const py::handle &h)
+{
+    return py::str(h).attr("encode")("utf-8", "backslashreplace").cast<std::string>();
+}
+
 // An exception's traceback as Python would print it.
 std::string traceback_of(py::error_already_set &e)
 {
     try {
         py::object format = py::module_::import("traceback").attr("format_exception");
         py::list lines = format(e.type(), e.value(), e.trace() ? e.trace() : py::none());
-        return py::str("").attr("join")(lines).cast<std::string>();
+        return text_of(py::str("").attr("join")(lines));
     } catch (py::error_already_set &) {
         return e.what();
     }
@@ -74,7 +80,7 @@ struct Waiting {
     py::object generator;
     int call_level;
     bool oword;
-    bool first_value_taken;
+    bool waited;
     std::string name;
 };
 
@@ -149,7 +155,7 @@ class Link final : public PythonLink
         for (const auto &[letter, value] : frame.words) words[py::str(&letter, 1)] = value;
         py::object result;
         TRY(call(s, "remap", name, py::tuple(), words, &result));
-        return handler_result(s, "remap", name, result);
+        return guarded(s, name, [&] { return handler_result(s, "remap", name, result); });
     }
 
     int call_oword(Setup &s, const std::string &name, const double *params, int count) override
@@ -163,7 +169,7 @@ class Link final : public PythonLink
         py::object result;
         if (call(s, "oword", name, args, py::dict(), &result) != INTERP_OK)
             FAIL("pycall(oword.%s) failed", name.c_str());
-        return oword_result(s, name, result);
+        return guarded(s, name, [&] { return oword_result(s, name, result); });
     }
 
     int waiting_level() const override { return waiting.empty() ? -1 : waiting.back().call_level; }
@@ -175,7 +181,7 @@ class Link final : public PythonLink
         Waiting w = std::move(waiting.back());
         waiting.pop_back();
         *oword = w.oword;
-        return run_generator(s, w);
+        return guarded(s, w.name, [&] { return run_generator(s, w); });
     }
 
     void forget_waiting() override
@@ -202,6 +208,8 @@ class Link final : public PythonLink
             const std::string trace = traceback_of(e);
             fprintf(stderr, "run_string(%s): \n%s", text, trace.c_str());
             FAIL("py_execute(%s)%s:\n%s", text, file ? " as file" : "", trace.c_str());
+        } catch (std::exception &e) { // of a file that cannot be read
+            FAIL("py_execute(%s)%s:\n%s", text, file ? " as file" : "", e.what());
         }
         return INTERP_OK;
     }
@@ -226,15 +234,7 @@ class Link final : public PythonLink
         } catch (py::error_already_set &e) {
             FAIL("named param - pycall(%s):\n%s", name.c_str(), traceback_of(e).c_str());
         }
-        CHECK(result.is_none(), "Python namedparams.%s returns no value", name.c_str());
-        if (PyFloat_Check(result.ptr()) || PyLong_Check(result.ptr())) {
-            *value = result.cast<double>();
-            return INTERP_OK;
-        }
-        const std::string text = py::str(result);
-        CHECK(PyUnicode_Check(result.ptr()), "%s", text.c_str());
-        FAIL("Python call namedparams.%s returned '%s' - expected double, int or string, got %s", name.c_str(),
-             text.c_str(), type_name(result).c_str());
+        return guarded(s, name, [&] { return value_of(s, name, result, value); });
     }
 
     int first_init(Setup &s) override
@@ -243,13 +243,13 @@ class Link final : public PythonLink
         initialised = true;
         py::gil_scoped_acquire gil;
         Entry entry(*this, s);
-        export_named_parameters(s);
+        TRY(guarded(s, "namedparams", [&] { return export_named_parameters(s); }));
         if (!main_dict.contains("__init__")) return INTERP_OK;
         py::object init = main_dict["__init__"];
         try {
             py::object result = init(self);
-            if (PyLong_Check(result.ptr()) && result.cast<int>() > INTERP_MIN_ERROR) {
-                CHECK(s.error.empty(), "__init__ returned %d", result.cast<int>());
+            if (PyLong_Check(result.ptr()) && py::int_(int(INTERP_MIN_ERROR)) < result) {
+                CHECK(s.error.empty(), "__init__ returned %s", text_of(result).c_str());
                 return INTERP_ERROR;
             }
         } catch (py::error_already_set &e) {
@@ -287,6 +287,31 @@ class Link final : public PythonLink
         ~Entry() { current_setup() = before; }
     };
 
+    /// What a handler gave is looked at: whatever it is, the interpreter lives on.
+    template <class Work> static int guarded(Setup &s, const std::string &name, Work work)
+    {
+        try {
+            return work();
+        } catch (py::error_already_set &e) {
+            FAIL("pycall(%s):\n%s", name.c_str(), traceback_of(e).c_str());
+        } catch (std::exception &e) {
+            FAIL("pycall(%s):\n%s", name.c_str(), e.what());
+        }
+    }
+
+    static int value_of(Setup &s, const std::string &name, const py::object &result, double *value)
+    {
+        CHECK(result.is_none(), "Python namedparams.%s returns no value", name.c_str());
+        if (PyFloat_Check(result.ptr()) || PyLong_Check(result.ptr())) {
+            *value = result.cast<double>();
+            return INTERP_OK;
+        }
+        const std::string text = text_of(result);
+        CHECK(PyUnicode_Check(result.ptr()), "%s", text.c_str());
+        FAIL("Python call namedparams.%s returned '%s' - expected double, int or string, got %s", name.c_str(),
+             text.c_str(), type_name(result).c_str());
+    }
+
     bool run_toplevel()
     {
         struct stat st;
@@ -302,6 +327,9 @@ class Link final : public PythonLink
             usable = false;
             fprintf(stderr, "initialize: module '%s' init failed: \n%s", toplevel_path.c_str(),
                     traceback_of(e).c_str());
+        } catch (std::exception &e) { // of a file that cannot be read
+            usable = false;
+            fprintf(stderr, "initialize: module '%s' init failed: \n%s\n", toplevel_path.c_str(), e.what());
         }
         return usable;
     }
@@ -344,26 +372,38 @@ class Link final : public PythonLink
         return INTERP_OK;
     }
 
-    static int status_of(Setup &s, int value)
+    static int status_of(Setup &s, const py::object &result)
     {
-        if (value <= INTERP_MIN_ERROR) return value;
+        const int value = result.cast<int>();
+        if (value >= INTERP_OK && value <= INTERP_EXECUTE_FINISH) return value;
         // The handler has given its text with set_errormsg(); without one something must be said.
-        if (s.error.empty()) s.error = "the handler returned INTERP_ERROR without a message";
+        if (s.error.empty())
+            s.error = "the handler returned " + (value == INTERP_ERROR ? "INTERP_ERROR" : std::to_string(value)) +
+                      " without a message";
         s.fault.what = s.error;
         fill_fault_place(s);
         return INTERP_ERROR;
     }
 
+    static bool is_status(const py::object &value)
+    {
+        return PyLong_Check(value.ptr()) || py::isinstance<InterpReturn>(value);
+    }
+
     int handler_result(Setup &s, const char *module, const std::string &name, const py::object &result)
     {
         if (result.is_none()) return INTERP_OK;
-        if (PyLong_Check(result.ptr())) return status_of(s, result.cast<int>());
-        if (py::isinstance<InterpReturn>(result)) return status_of(s, int(result.cast<InterpReturn>()));
+        if (is_status(result)) {
+            const int status = status_of(s, result);
+            if (status == INTERP_EXECUTE_FINISH) // returned: there is nothing to go on with after the wait
+                waiting.push_back({py::iter(py::tuple()), s.call_level, false, true, name});
+            return status;
+        }
         if (PyGen_Check(result.ptr())) {
             Waiting w{result, s.call_level, false, false, name};
             return run_generator(s, w);
         }
-        const std::string text = py::str(result);
+        const std::string text = text_of(result);
         CHECK(PyUnicode_Check(result.ptr()), "%s", text.c_str());
         CHECK(PyFloat_Check(result.ptr()), "handler_returned: %s returned double: %f - invalid", name.c_str(),
               result.cast<double>());
@@ -399,26 +439,22 @@ class Link final : public PythonLink
             FAIL("exception during generator call: %s", trace.c_str());
         }
         value = py::reinterpret_steal<py::object>(raw);
-        int status;
-        if (PyLong_Check(value.ptr())) status = value.cast<int>();
-        else if (py::isinstance<InterpReturn>(value)) status = int(value.cast<InterpReturn>());
-        else if (w.oword) return oword_result(s, w.name, value);
-        else return handler_result(s, "remap", w.name, value);
-        if (status == INTERP_EXECUTE_FINISH) {
+        CHECK(PyGen_Check(value.ptr()) || (value.is_none() && !w.oword),
+              "Python generator %s yielded '%s' - expected int, got %s", w.name.c_str(), text_of(value).c_str(),
+              type_name(value).c_str());
+        if (is_status(value) && value.equal(py::int_(int(INTERP_EXECUTE_FINISH)))) {
+            w.waited = true;
             waiting.push_back(std::move(w));
             return INTERP_EXECUTE_FINISH;
         }
-        if (w.oword && status <= INTERP_MIN_ERROR && w.first_value_taken) {
-            s.return_value = status;
-            s.value_returned = true;
-            return INTERP_OK;
-        }
-        return status_of(s, status);
+        // What an O-word sub yields after it has waited is its value.
+        if (w.oword && (w.waited || !is_status(value))) return oword_result(s, w.name, value);
+        return handler_result(s, "remap", w.name, value);
     }
 
-    void export_named_parameters(Setup &s)
+    int export_named_parameters(Setup &s)
     {
-        if (!main_dict || !main_dict.contains("namedparams")) return;
+        if (!main_dict || !main_dict.contains("namedparams")) return INTERP_OK;
         py::object module = main_dict["namedparams"];
         for (py::handle key : py::list(py::module_::import("builtins").attr("dir")(module))) {
             const std::string name = py::str(key);
@@ -429,6 +465,7 @@ class Link final : public PythonLink
             p.computed = nullptr;
             p.python = p.read_only = true;
         }
+        return INTERP_OK;
     }
 
     py::object self, main_dict;
