@@ -2,6 +2,8 @@
 component kerf_test_page "Shows what a page looks like";
 description """
 Text with *bold*, _italic_ and `code`, a dash - and 'quotes'.
+Marks with a backslash, \\*here* and \\_there_, are text; a line +
+ends at a plus.
 .A title
 * first
 * second
@@ -15,6 +17,7 @@ Older components have \\fBtroff\\fR in them.
 """;
 pin in float in_ = 1.5 "Input with _emphasis_.";
 pin out bit out-##[8 : personality] "Outputs.";
+pin in float angle = M_PI_2 "Start by a name.";
 pin io s32 undocumented if personality > 2;
 param rw u32 setting = 0x10 "A setting.";
 function _ "Does it.";

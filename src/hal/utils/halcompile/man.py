@@ -38,9 +38,10 @@ def _escape_plain(text: str) -> str:
 
 
 _INLINE = re.compile(
-    r"\*\*(?P<b2>.+?)\*\*|__(?P<i2>.+?)__"
-    r"|(?<![\w*])\*(?P<b1>[^\s*](?:[^*]*[^\s*])?)\*(?![\w*])"
-    r"|(?<![\w_])_(?P<i1>[^\s_](?:[^_]*[^\s_])?)_(?![\w_])"
+    r"\\(?P<mark>\*\*?|__?|`)"
+    r"|\*\*(?P<b2>.+?)\*\*|__(?P<i2>.+?)__"
+    r"|(?<![\w*])\*(?P<b1>(?:\\\*|[^\s*])(?:(?:\\\*|[^*])*(?:\\\*|[^\s*]))?)\*(?![\w*])"
+    r"|(?<![\w_])_(?P<i1>[^\s_](?:(?:[^_]|_(?=\w))*[^\s_])?)_(?![\w_])"
     r"|`\+?(?P<m>[^`]+?)\+?`"
     r"|(?:link:)?(?P<url>https?://[^\s\[]+)\[(?P<label>[^\]]*)\]"
     r"|(?:link:|xref:)(?P<target>[^\s\[]+)\[(?P<ltext>[^\]]*)\]"
@@ -55,7 +56,9 @@ def inline(text: str, font: str = "R") -> str:
         part = found.groupdict()
         bold = part["b2"] or part["b1"]
         italic = part["i2"] or part["i1"]
-        if bold:
+        if part["mark"]:
+            out.append(part["mark"])
+        elif bold:
             out.append(f"\\fB{inline(bold, 'B')}\\f{font}")
         elif italic:
             out.append(f"\\fI{inline(italic, 'I')}\\f{font}")
@@ -87,7 +90,10 @@ class _Body:
     def paragraph(self, collected: list[str]) -> None:
         if collected:
             for line in inline("\n".join(collected)).split("\n"):
-                self.put(safe(line.strip()))
+                line = line.strip()
+                self.put(safe(line.removesuffix(" +")))
+                if line.endswith(" +"):
+                    self.put(".br")
             collected.clear()
 
     def text(self, text: str) -> None:
