@@ -22,3 +22,8 @@ ls -l "$folder/installed" | awk 'NR > 1 { print $1, $NF }'
 head -c 2 "$folder/installed/kerf_test_script"; echo
 "$folder/installed/kerf_test_script"
 "$folder/installed/kerf_test_program" installed
+# Scripts as editors wrote them: an encoding of their own, a byte order mark, other line ends.
+printf '#!/usr/bin/python\n# -*- coding: latin-1 -*-\nprint(ascii("\374"))\n' > latin.py
+printf '\357\273\277print("marked")\r\n' > marked.py
+USER_MODULE_DIR="$folder/installed" halcompile --install latin.py marked.py
+"$folder/installed/latin"; "$folder/installed/marked"

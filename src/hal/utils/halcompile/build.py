@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import shutil
 import stat
@@ -91,15 +92,12 @@ def install_file(path: str, directory: str, name: str, mode: int) -> None:
 
 def install_python(path: str) -> None:
     """Installs a Python program: first line names this interpreter, no .py, mode 0555."""
-    with open(path) as f:
-        lines = f.read().splitlines(keepends=True)
-    shebang = f"#!{sys.executable}\n"
-    if lines and lines[0].startswith("#!"):
-        lines[0] = shebang
-    else:
-        lines.insert(0, shebang)
-    with tempfile.NamedTemporaryFile("w", delete=False) as f:
-        f.writelines(lines)
+    with open(path, "rb") as f:                 # bytes: it may name an encoding of its own
+        lines = f.read().removeprefix(codecs.BOM_UTF8).replace(b"\r\n", b"\n").split(b"\n")
+    if lines[0].startswith(b"#!"):
+        del lines[0]
+    with tempfile.NamedTemporaryFile(delete=False) as f:
+        f.write(b"\n".join([b"#!" + os.fsencode(sys.executable), *lines]))
     try:
         install_file(f.name, user_module_dir(), os.path.splitext(os.path.basename(path))[0],
                      stat.S_IRUSR | stat.S_IXUSR | stat.S_IRGRP | stat.S_IXGRP | stat.S_IROTH | stat.S_IXOTH)
