@@ -194,6 +194,9 @@ effect("tool_offset", lambda: c.tool_offset(1, 33.0, 2.0, 8.0, 10.0, 20.0, 3),
        lambda s: (s.tool_table[0].zoffset, s.tool_table[0].xoffset, s.tool_table[0].diameter) == (33, 2, 8))
 Path("a.ngc").write_text("G0 X1\nG4 P1\nM2\n")
 effect("program_open", lambda: c.program_open("a.ngc"), lambda s: s.file.endswith("a.ngc"))
+Path("b.ngc").write_text("M2\n")
+effect("program_open of bytes", lambda: c.program_open(b"b.ngc"), lambda s: s.file.endswith("b.ngc"))
+effect("program_open of a Path", lambda: c.program_open(Path("a.ngc")), lambda s: s.file.endswith("a.ngc"))
 file = s.file
 c.program_open("nothing.ngc")
 print("a missing file:", c.wait_complete(), poll().file == file, messages())

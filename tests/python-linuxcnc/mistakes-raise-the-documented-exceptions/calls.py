@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
+from pathlib import Path
+
 import linuxcnc
 
 
@@ -55,6 +57,12 @@ except AttributeError:
     print("attributes are read-only")
 linuxcnc.nmlfile = "/nonexistent"
 call(linuxcnc.stat().poll)
+for linuxcnc.nmlfile in (Path("/nonexistent"), b"/nonexistent"):
+    call(linuxcnc.command().abort)
+linuxcnc.nmlfile = 5
+for kind in linuxcnc.stat, linuxcnc.command, linuxcnc.error_channel:
+    call(kind)
+linuxcnc.nmlfile = "/nonexistent"
 ini = linuxcnc.ini("test.ini")
 call(ini.find, "EMC", "MACHINE")
 call(ini.find, "EMC", "NOPE")
@@ -77,6 +85,8 @@ call(ini.hasvariable, "", "MACHINE")
 call(ini.mapjointtype, "angular")
 call(ini.mapangularunits, "deg")
 call(linuxcnc.ini, "/nope.ini")
+call(linuxcnc.ini, 5)
+print([linuxcnc.ini(name).find("EMC", "MACHINE") for name in (b"test.ini", Path("test.ini"))])
 call(linuxcnc.vertex9, "XYZ-A", (1, 2, 3, 180, 0, 0, 0, 0, 0))
 call(linuxcnc.vertex9, "XYZ", (1, 2))
 color = (1, 2, 3, 4)

@@ -55,7 +55,7 @@ template <class F> void mapper(py::class_<Ini> &cls, const char *name, F map, co
 void define_ini(py::module_ &m) {
     using linuxcnc::IniFile;
     py::class_<Ini> cls(m, "ini", py::dynamic_attr(), "An INI file");
-    cls.def(py::init<const std::string &>());
+    cls.def(py::init([](const py::object &name) { return std::make_unique<Ini>(path_of(name)); }), py::arg("filename"));
     cls.def(
         "hassection", [](Ini &i, const std::string &sec) { return i.file.hasSection(sec); },
         "True when the section is there");

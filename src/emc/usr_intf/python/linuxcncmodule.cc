@@ -30,14 +30,32 @@ void raise_error(const std::string &text) {
     throw py::error_already_set();
 }
 
-namespace {
+// Bytes of a str (UTF-8) or bytes object. Raises UnicodeEncodeError for what is no text.
+// errors: "surrogateescape" for names of files, which may have any bytes but 0, which would end the message's text.
+static std::string text_of(const py::handle &o, const char *errors = "strict") {
+    py::object bytes = py::reinterpret_borrow<py::object>(o);
+    if (!py::isinstance<py::bytes>(o))
+        bytes = py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(o.ptr(), "utf-8", errors));
+    if (!bytes) throw py::error_already_set();
+    std::string text = bytes.cast<std::string>();
+    if (text.find('\0') != std::string::npos) throw py::value_error("embedded null character");
+    return text;
+}
 
-constexpr double RECEIVE_TIMEOUT_S = 5.0;
+std::string path_of(const py::handle &name) {
+    py::object path = py::reinterpret_steal<py::object>(PyOS_FSPath(name.ptr()));
+    if (!path) throw py::error_already_set();
+    return text_of(path, "surrogateescape");
+}
 
 std::string nml_file() {
     py::object f = py::module_::import("linuxcnc").attr("nmlfile");
-    return f.is_none() ? "" : f.cast<std::string>();
+    return f.is_none() ? "" : path_of(f);
 }
+
+namespace {
+
+constexpr double RECEIVE_TIMEOUT_S = 5.0;
 
 // ---- values ----
 
@@ -278,26 +296,12 @@ template <class M, class V, V M::*FIELD> void one_value(Command &c, V v) {
     c.give(m);
 }
 
-// Bytes of a str (UTF-8) or bytes object. Raises UnicodeEncodeError for what is no text.
-// errors: "surrogateescape" for names of files, which may have any bytes but 0, which would end the message's text.
-std::string text_of(const py::handle &o, const char *errors = "strict") {
-    py::object bytes = py::reinterpret_borrow<py::object>(o);
-    if (!py::isinstance<py::bytes>(o))
-        bytes = py::reinterpret_steal<py::object>(PyUnicode_AsEncodedString(o.ptr(), "utf-8", errors));
-    if (!bytes) throw py::error_already_set();
-    std::string text = bytes.cast<std::string>();
-    if (text.find('\0') != std::string::npos) throw py::value_error("embedded null character");
-    return text;
-}
-
 void program_open(Command &c, const py::args &args, const py::kwargs &kwargs) {
     c.plain<EMC_TASK_PLAN_CLOSE>();
     if (kwargs && kwargs.size() > 0) throw py::type_error("program_open() takes no keyword arguments");
     if (args.size() != 1)
         throw py::type_error("function takes exactly 1 argument (" + std::to_string(args.size()) + " given)");
-    if (!py::isinstance<py::str>(args[0]))
-        throw py::type_error("argument 1 must be str, not " + std::string(Py_TYPE(args[0].ptr())->tp_name));
-    std::string file = text_of(args[0], "surrogateescape");
+    std::string file = path_of(args[0]);
     if (file.size() >= LINELEN) throw py::value_error("File name limited to 254 characters");
     EMC_TASK_PLAN_OPEN m;
     copy_text(m.file, file.c_str());

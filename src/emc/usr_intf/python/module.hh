@@ -20,6 +20,8 @@ struct __attribute__((visibility("hidden"))) Stat {
 
 extern PyObject *linuxcnc_error;                    // exception linuxcnc.error
 [[noreturn]] void raise_error(const std::string &text);
+std::string path_of(const pybind11::handle &name);  // str, bytes or os.PathLike; else TypeError
+std::string nml_file();                             // linuxcnc.nmlfile; "" when it is None
 
 void define_ini(pybind11::module_ &m);
 void define_positionlogger(pybind11::module_ &m);

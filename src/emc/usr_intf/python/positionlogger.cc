@@ -98,7 +98,7 @@ public:
 
     void start(double interval_s) {
         Stat &stat = stat_object_.cast<Stat &>();
-        std::string file = py::module_::import("linuxcnc").attr("nmlfile").cast<std::string>();
+        std::string file = nml_file();
         (void)stat;
         NML channel(emc_messages(), "emcStatus", "xemc", file.empty() ? nullptr : file.c_str());
         clear();
