@@ -490,7 +490,7 @@ typedef struct hal_stream {
 } hal_stream_t;
 typedef hal_stream_t *hal_stream_ptr_t;
 
-typedef union {
+typedef union hal_stream_data {
     real_t f;
     bool b;
     rtapi_s32 s;

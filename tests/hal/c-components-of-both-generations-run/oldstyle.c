@@ -47,6 +47,13 @@ static int export_channel(int n, channel_t *c, const char *name)
     return hal_export_functf(update, c, 1, 0, comp_id, "%s.update", name);
 }
 
+// The name that a record's element had before 2.10.
+int hal_stream_of_before(hal_stream_t *stream, union hal_stream_data *record);
+int hal_stream_of_before(hal_stream_t *stream, union hal_stream_data *record)
+{
+    return hal_stream_write(stream, record);
+}
+
 int rtapi_app_main(void)
 {
     comp_id = hal_init("oldstyle");
