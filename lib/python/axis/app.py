@@ -184,6 +184,13 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
                                    f"{kind.__name__}: {error}"
                                    + (f"\n{self.translate('Report:')} {path}" if path else ""))
 
+    def tcl_failed(self, text):
+        """A mistake in a user's Tcl code that the code does not catch itself: told once as long as the message stands.
+        The rest of a file is left out; Tk's own question would keep the keys from the operator."""
+        if not any(box.text == text for _, box in self.notifications.shown):
+            print(self.root.tk.getvar("::errorInfo"), file=sys.stderr)
+            self.notifications.add("error", text)
+
     def gone(self):
         """Is the window no more?"""
         try:
@@ -681,7 +688,10 @@ class App(WindowPart, OpeningPart, PinsPart, FollowPart, UserPart, PanelsPart, T
             except tk.TclError as error:
                 self.notifications.add("error", f"[DISPLAY]TKPKG = {words}: {error}")
         for path in self.ini.findall("DISPLAY", "TKAPP") or []:
-            self.root.tk.call("source", path)
+            try:
+                self.root.tk.call("source", path)
+            except tk.TclError as error:
+                self.tcl_failed(f"[DISPLAY]TKAPP = {path}: {error}")
         if self.prefs.damaged:
             self.notifications.add("error",
                                    self.translate("The preferences were damaged: they begin anew. The old file is %s")

@@ -17,6 +17,29 @@ ABORT_PULSE_MS = 300
 TOGGLES = ("show_program", "show_rapids", "program_alpha", "show_live_plot", "show_tool", "show_extents",
            "show_offsets", "show_machine_limits", "show_machine_speed", "show_distance_to_go", "dro_large_font")
 
+# What a command made in Python returns: (failed, value or message)
+CALL = """proc ::axis::call {command args} {
+    lassign [$command {*}$args] failed value
+    if {$failed} { return -code error $value }
+    return $value
+}"""
+
+
+def make_command(tcl, name, function):
+    """A command whose exceptions are errors of the Tcl code that calls it, to be caught there: those of a command of
+    tkinter end the main loop, caught or not."""
+    def call(*words):
+        try:
+            value = function(*words)
+            return 0, "" if value is None else value
+        except tk.TclError as error:
+            return 1, str(error)
+        except Exception as error:
+            return 1, f"{name}: {type(error).__name__}: {error}"
+    hidden = f"::axis::python_{name.replace('::', '_')}"
+    tcl.createcommand(hidden, call)
+    tcl.call("interp", "alias", "", name, "", "::axis::call", hidden)
+
 
 def make(app):
     """The class for one screen. Its functions take texts from Tcl and return at once."""
@@ -46,7 +69,7 @@ def make(app):
                 function = getattr(type(self), name)
                 if not name.startswith("_") and callable(function):
                     setattr(self, name, function)        # no method: commands.NAME(...) is what Tcl calls
-                    master.tk.createcommand(name, app.guarded(function))
+                    make_command(master.tk, name, app.guarded(function))
 
         # -- machine -----------------------------------------------------------------------
 

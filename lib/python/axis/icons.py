@@ -195,6 +195,8 @@ class Icons:
         self.images = {}
 
     def png(self, name):
+        if name not in DRAWINGS:
+            raise ValueError(f"no image {name}; there are {' '.join(sorted(DRAWINGS))}")
         pen = Pen(round(self.size * MARK_SIZE) if name in MARKS else self.size, self.colours)
         DRAWINGS[name](pen)
         return pen.png()

@@ -82,9 +82,11 @@ class WindowPart(LooksPart):
                            ("numbers", "right.fnumbers")):
             tcl.setvar(f"_tabs_{name}", f".pane.top.{path}")
         tcl.setvar("::axis::tcl_dir", str(tree.tcl))
-        tcl.createcommand("_", self.translate)
-        tcl.createcommand("::axis::icon", self.icons.get)
-        tcl.createcommand("::axis::notify_error", lambda text: self.notifications.add("error", text))
+        tcl.eval(command_table.CALL)
+        command_table.make_command(tcl, "_", self.translate)
+        command_table.make_command(tcl, "::axis::icon", self.icons.get)
+        command_table.make_command(tcl, "::axis::notify_error", lambda text: self.notifications.add("error", text))
+        command_table.make_command(tcl, "bgerror", self.tcl_failed)
         for name, function in {"jog_slider": lambda x: self.slider("jog", x),
                                "ajog_slider": lambda x: self.slider("ajog", x),
                                "maxvel_slider": lambda x: self.slider("maxvel", x), "raised_manual": self.tab_raised,
@@ -93,8 +95,8 @@ class WindowPart(LooksPart):
                                "dark_theme": lambda: self.set_dark(self.vars.dark_theme.get()),
                                "large_touch_targets": lambda: self.set_touch(self.vars.large_touch_targets.get()),
                                "interface_scale": lambda: self.set_scale(self.vars.interface_scale.get())}.items():
-            tcl.createcommand(f"::axis::{name}", self.guarded(function))
-        tcl.createcommand("val2vel", lambda value, top=1.0: "%g" % speed(float(value), float(top)))
+            command_table.make_command(tcl, f"::axis::{name}", self.guarded(function))
+        command_table.make_command(tcl, "val2vel", lambda value, top=1.0: "%g" % speed(float(value), float(top)))
         tcl.eval(f"source {{{tree.tcl}/axis.tcl}}")
         tcl.eval("::axis::build")
         self.widgets = SimpleNamespace()

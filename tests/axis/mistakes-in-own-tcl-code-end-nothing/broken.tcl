@@ -1,0 +1,2 @@
+set ::before 1
+button .pane.nosuch.b -text "my button"
