@@ -149,13 +149,18 @@ class OldConfig:
         lines = unit_words(lines)
         return [f"COORDINATES = {self.letters}"] + lines
 
+    def is_tandem(self, number):
+        return self.letters.count(self.letters[self.numbers.index(number)]) > 1
+
     def joint(self, number):
         lines = [re.sub(r"^(\s*HOME_SEQUENCE\s*=\s*)-1\s*$", r"# \1-1", line)
                  for line in without(self.sections.get(f"AXIS_{number}", []), "LOCKING_INDEXER_JOINT")]
-        letter = self.letters[self.numbers.index(number)]
-        if self.letters.count(letter) > 1:
-            lines = [re.sub(r"^(\s*HOME_SEQUENCE\s*=\s*)(\d+)", r"\1-\2", line) for line in lines]
-        return lines
+        # Groups are numbered from -1: with one at 0 every sequence moves up by one.
+        up = any(self.is_tandem(n) and value(self.sections.get(f"AXIS_{n}"), "HOME_SEQUENCE") == "0"
+                 for n in self.numbers)
+        sign = "-" if self.is_tandem(number) else ""
+        return [re.sub(r"^(\s*HOME_SEQUENCE\s*=\s*)(\d+)", lambda m: f"{m[1]}{sign}{int(m[2]) + up}", line)
+                for line in lines]
 
     def text(self, backup):
         out = [f"# This config file was created {datetime.now():%Y-%m-%d %H:%M:%S} by the update_ini script",

@@ -75,7 +75,7 @@ net wheel axis.0.jog-counts
 
 def machine(name, title, axes, coordinates, version="VERSION = $Revision$", kins="trivkins", extra_hal="",
             linear="inch", angular="degree", features="FEATURES = 12", comm_wait="COMM_WAIT = 0.01\n", display="axis",
-            high=10.0, own=""):
+            high=10.0, own="", first=(2,)):
     folder = Path(name)
     folder.mkdir()
     text = INI.format(name=name, title=title, version=version, axes=len(axes), coordinates=coordinates, linear=linear,
@@ -83,7 +83,7 @@ def machine(name, title, axes, coordinates, version="VERSION = $Revision$", kins
     for i, n in enumerate(axes):
         text += AXIS.format(n=n, type="ANGULAR" if 3 <= n <= 5 and kins != "gantrykins" else "LINEAR",
                             velocity=4.0 if i else 3.5, high=high,
-                            sequence=0 if n == 2 else -1 if name == "unordered" else 1, own=own)
+                            sequence=0 if n in first else -1 if name == "unordered" else 1, own=own)
     (folder / f"{name}.ini").write_text(text)
     hal = HAL.format(kins=kins)
     for n in axes:
@@ -96,6 +96,9 @@ machine("mill", "three axes", [0, 1, 2], "X Y Z")
 machine("lathe", "X and Z only", [0, 2], "X Z", version="", display="tkemc")
 machine("rotary", "a rotary axis", [0, 1, 2, 3], "X Y Z A", kins="trivkins", version="VERSION = 0.9")
 machine("gantry", "two motors for Y", [0, 1, 2, 3], "X Y Z", kins="gantrykins",
+        extra_hal="setp gantrykins.joint-0 0\nsetp gantrykins.joint-1 1\nsetp gantrykins.joint-2 2\n"
+                  "setp gantrykins.joint-3 1\n")
+machine("bridge", "two motors for Y, which home first", [0, 1, 2, 3], "X Y Z", kins="gantrykins", first=(1, 3),
         extra_hal="setp gantrykins.joint-0 0\nsetp gantrykins.joint-1 1\nsetp gantrykins.joint-2 2\n"
                   "setp gantrykins.joint-3 1\n")
 machine("numbers", "numeric units, 22 and 22.222", [0, 1, 2], "X Y Z", linear="0.03937007874016", angular="1.0",

@@ -28,5 +28,5 @@ done
 sed -n '/^\[TRAJ\]/,/^\[EMCIO\]/p; /^\[KINS\]/,$p' gantry/gantry.ini
 grep -E 'kins|spindle|jog|joint.3' gantry/gantry.hal
 grep -hE 'UNITS|MAX_LIMIT' numbers/numbers.ini fraction/fraction.ini | sort | uniq -c
-grep -h 'HOME_SEQUENCE' unordered/unordered.ini
+grep -h 'HOME_SEQUENCE' unordered/unordered.ini bridge/bridge.ini
 rm -rf ../work.first
