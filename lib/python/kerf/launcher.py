@@ -326,7 +326,7 @@ class Session:
             raise Failure("linuxcncsvr could not create the NML channels: see its messages above")
         if self.run(str(self.tree.realtime), "start"):
             raise Failure("Realtime system did not load")
-        print(f"linuxcnc TPMOD={self.tpmod} HOMEMOD={self.homemod} EMCMOT={self.ini.get('EMCMOT', 'EMCMOT')}",
+        print(f"linuxcnc TPMOD={self.tpmod} HOMEMOD={self.homemod} EMCMOT={self.ini.get('EMCMOT', 'EMCMOT') or 'motmod'}",
               flush=True)
         for module in (self.tpmod, self.homemod):
             if self.run(*self.halcmd, "loadrt", *module.split()):

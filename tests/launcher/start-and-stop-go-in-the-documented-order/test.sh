@@ -45,6 +45,7 @@ echo "== options"
 run -h | head -n 1; run -z | tail -n 1; run -H nowhere m.ini
 run -r -t "tpmod x=1" m.ini | grep -i "tpmod\|status" | head -n 3
 run -r -m nohome m.ini | grep -i "nohome\|status" | head -n 5
+ini '/^EMCMOT = /d; s,^HALFILE = mill.hal,HALFILE = none.hal,'; run -r m.ini | grep EMCMOT=
 ini 's,^HALFILE = mill.hal,&\nHALCMD = setp no.such 1\nHALFILE = bad.hal,; s,^DISPLAY = axis,DISPLAY = true,'
 printf 'setp no.such.pin 1\nnet x no.such.pin\nloadusr -w echo after\n' > bad.hal
 run -r m.ini; run -r -k m.ini
