@@ -25,6 +25,7 @@ TOO_LONG_INCH = 1000.0       # travel of an inch machine that must be in millime
 INCH_WORDS = ("in", "inch", "imperial")
 TEXT_DEPTH, TEXT_FILES = 3, 400     # how far the files beside the INI file are looked at
 PROGRAM_SIZE = 100_000       # bytes: longer programs are none that people wrote
+PLAIN = ("VERSION", "DISPLAY", "TASK", "HALUI", "PARAMETER_FILE", "COORDINATES", "TPMOD")   # texts without a # or ;
 GROUPS = {"EMBED_TAB_NAME": "EMBED_TAB_COMMAND", "MESSAGE_TEXT": "MESSAGE_TYPE"}
 
 
@@ -101,7 +102,8 @@ class Settings:
             if pattern is None:
                 if not any(self.is_used(section, n) for n in values):
                     near = difflib.get_close_matches(section.upper(), known, 1, NEAR)
-                    hint = f"did you mean [{near[0]}]?" if near else "nothing reads it"
+                    meant = section.upper() if self.pattern_of(section.upper()) else near[0] if near else None
+                    hint = f"did you mean [{meant}]?" if meant else "nothing reads it"
                     self.c.warning(f"[{section}]: Unknown section; {hint}", section, next(iter(values)))
                 continue
             for name, entries in values.items():
@@ -148,7 +150,7 @@ class Settings:
         tag = f"[{section}]{name}"
         where = (section, name)
         comment = re.search(r"\s[#;]", text)
-        if comment and setting.kind != "text":
+        if comment and (setting.kind != "text" or name in PLAIN):
             self.c.warning(f"{tag}: '{text[comment.start():].strip()}' is part of the value; comments "
                            "stand on lines of "
                            "their own", *where)
@@ -193,6 +195,11 @@ class Settings:
                 if f"JOINT_{j}" not in self.ini.sections:
                     self.c.warning(f"[JOINT_{j}]: Missing; [KINS]JOINTS = {joints}", "KINS", "JOINTS")
         letters = "".join((self.ini.get("TRAJ", "COORDINATES") or "").upper().split())
+        if any(re.fullmatch(r"AXIS_[XYZABCUVW]", s) for s in self.ini.sections):
+            for letter in dict.fromkeys(c for c in letters if c in "XYZABCUVW"):
+                if f"AXIS_{letter}" not in self.ini.sections:
+                    self.c.warning(f"[AXIS_{letter}]: Missing; [TRAJ]COORDINATES = {letters} (1 unit/s, no limits)",
+                                   "TRAJ", "COORDINATES")
         for section in self.ini.sections:
             if re.fullmatch(r"AXIS_[XYZABCUVW]", section) and letters and section[5] not in letters:
                 self.c.info(f"[{section}]: Not used; [TRAJ]COORDINATES = {letters}", section)

@@ -23,6 +23,7 @@ check 's/^\[HAL\]/&\nHALCMD = show\nHALCMD = show/'
 check 's/^\[JOINT_2\]/[JOINT_7]/'
 check 's/^\[AXIS_Z\]/[AXIS_2]/'
 check 's/^\[AXIS_Z\]/[AXIS_B]/'
+check 's/^\[AXIS_Z\]/[AXIS_z]/'
 check 's/^EMCMOT = motmod/& num_spindles=2/'
 check 's/coordinates=XYZ/coordinates=XYZY/; s/^COORDINATES.*/COORDINATES = XYZY/'
 echo "== the user's own settings, named by a file of the machine, are welcome"
@@ -34,6 +35,8 @@ rm own.hal
 echo "== values: FP-180"
 check 's/^MAX_FEED_OVERRIDE.*/MAX_FEED_OVERRIDE = 1.5 # a comment/'
 check 's/^TOOL_TABLE.*/TOOL_TABLE = mill.tbl ; tools/'
+check 's/^COORDINATES.*/& ; the letters/; s/coordinates=XYZ//'
+check 's/^PARAMETER_FILE.*/& # kept offsets/'
 check '70,90s/^FERROR = 1.0/FERROR = 1,5/'
 check '70,90s/^FERROR = 1.0/FERROR = 1mm/'
 check '70,90s/^FERROR = 1.0/FERROR = one/'
