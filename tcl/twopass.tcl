@@ -91,6 +91,7 @@ proc ::tp::read_file {path} {
     set f [open $path r]
     set text [read $f]
     close $f
+    regsub {^(\ufeff|\u00ef\u00bb\u00bf)} $text {} text ;# the byte order mark of some editors, in either encoding
     return $text
 }
 

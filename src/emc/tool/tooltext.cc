@@ -111,6 +111,8 @@ bool read_lines(const char *filename, std::vector<std::string> *lines)
     std::ifstream in(filename, std::ios::binary);
     if (!in) return false;
     for (std::string line; std::getline(in, line);) lines->push_back(line);
+    // The byte order mark of some editors.
+    if (!lines->empty() && lines->front().compare(0, 3, "\xEF\xBB\xBF") == 0) lines->front().erase(0, 3);
     return !in.bad();
 }
 

@@ -24,6 +24,9 @@ list sig
 print 'a # b'
 print "c # d"
 HAL
+printf '\xef\xbb\xbf# saved by an editor for Windows\nnewsig marked bit\n' > marked.hal
+printf '\xef\xbb\xbfsource marked.hal\nlist sig marked\ndelsig marked\n\xef\xbb\xbf\n' | run "a byte order mark at the begin, and one elsewhere"
+rm marked.hal
 run quotes <<'HAL'
 print 'single run'
 print "double 'in' run"

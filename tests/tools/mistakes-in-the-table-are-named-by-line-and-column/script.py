@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# FP-086: the table is checked when it is read; the operator is told file, line and column.
+# FP-086: the table is checked when it is read; the operator is told file, line and column. It begins with a byte order mark.
 from mill import *
 
 sleep(0.1)

@@ -13,7 +13,8 @@ HALFILE = one.hal
 HALFILE = two.tcl 17 x
 HALFILE = lib/three.hal
 INI
-cat > one.hal <<'HAL'
+printf '\xef\xbb\xbf' > one.hal # a byte order mark, as editors for Windows put it in front
+cat >> one.hal <<'HAL'
 # first file
 loadrt threads name1=t \
   period1=1000000   # continued

@@ -139,10 +139,9 @@ static void run_prompted(Session &s)
         fputs(s.script ? "%%\n" : joiner.pending() ? "halcmd+: " : "halcmd: ", stdout);
         fflush(stdout);
         kerf_clock_suspend();
-        bool more = read_physical(stdin, physical, cut);
+        bool more = read_physical(stdin, physical, s.place.line, cut);
         kerf_clock_resume();
         if (!more) break;
-        s.place.line++;
         if (!joiner.add(physical, line)) continue;
         if (s.run_line(line) != 0) s.failures++;
         fflush(stdout);

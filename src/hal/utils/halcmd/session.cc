@@ -126,7 +126,7 @@ int Session::run_logical(std::string line, bool top_level)
     return run(tokens);
 }
 
-bool read_physical(FILE *in, std::string &line, bool &cut)
+bool read_physical(FILE *in, std::string &line, int &number, bool &cut)
 {
     int c = 0;
     cut = false;
@@ -134,7 +134,9 @@ bool read_physical(FILE *in, std::string &line, bool &cut)
     line.clear();
     while (line.size() < MAX_PHYSICAL && (c = getc(in)) != EOF && c != '\n') line += static_cast<char>(c);
     cut = line.size() == MAX_PHYSICAL;
-    return c != EOF || !line.empty();
+    if (c == EOF && line.empty()) return false;
+    if (++number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
+    return true;
 }
 
 int Session::run_stream(FILE *in)
@@ -142,8 +144,7 @@ int Session::run_stream(FILE *in)
     Joiner joiner;
     std::string physical, line;
     bool cut;
-    while (!stop && !quit_seen && read_physical(in, physical, cut)) {
-        place.line++;
+    while (!stop && !quit_seen && read_physical(in, physical, place.line, cut)) {
         if (cut) warning(strf("line longer than %zu characters was split", MAX_PHYSICAL));
         if (!joiner.add(physical, line)) continue;
         int r = run_line(line);
@@ -171,8 +172,7 @@ int Session::source(const std::string &path)
     int r = 0;
     bool cut;
     std::string line;
-    while (!stop && r == 0 && read_physical(in, line, cut)) {
-        place.line++;
+    while (!stop && r == 0 && read_physical(in, line, place.line, cut)) {
         if (cut) warning(strf("line longer than %zu characters was split", MAX_PHYSICAL));
         r = run_logical(line, false);
     }

@@ -123,8 +123,9 @@ class Session
 };
 
 /// Reads one physical line (MAX_PHYSICAL characters with its newline at most) without the
-/// newline. False at the end. cut: the line was longer and goes on in the next read.
-bool read_physical(FILE *in, std::string &line, bool &cut);
+/// newline and, at the file's begin, the byte order mark of some editors; counts it in number. False at the
+/// end. cut: the line was longer and goes on in the next read.
+bool read_physical(FILE *in, std::string &line, int &number, bool &cut);
 
 } // namespace halcmd
 
