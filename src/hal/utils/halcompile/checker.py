@@ -119,6 +119,23 @@ def _check_item_name(item: Item) -> None:
         raise CompError(f"Non-array name contains #: '{item.name}'", item.offset)
 
 
+def _check_port(item: Item) -> None:
+    if item.type == "port" and item.kind == "param":
+        raise CompError("A parameter cannot be a port", item.offset)
+    if item.type == "port" and item.direction == "io":
+        raise CompError("The direction of a port is in or out", item.offset)
+
+
+def _check_c_names(component: Component) -> None:
+    """Different names may be the same in C."""
+    names: dict[str, str] = {}
+    for node in component.items + component.variables:
+        name = c_name(node.name)
+        if name in names:
+            raise CompError(f"'{names[name]}' and '{node.name}' are both {name} in C", node.offset)
+        names[name] = node.name
+
+
 def _add_option(component: Component, option: Option) -> None:
     if option.name in component.options:
         raise CompError(f"Duplicate option name {option.name}", option.offset)
@@ -178,6 +195,7 @@ def check(tree: File, expected_name: str | None = None,
         match node:
             case Item():
                 _check_item_name(node)
+                _check_port(node)
                 claim(node.name, node.offset)
                 (component.pins if node.kind == "pin" else component.params).append(node)
             case Function():
@@ -211,7 +229,11 @@ def check(tree: File, expected_name: str | None = None,
     if component.userspace:
         if component.functions:
             raise CompError("Userspace components may not have functions", component.functions[0].offset)
+        for param in component.modparams:
+            if param.type == "int":
+                raise CompError("Userspace components may not have parameters of modules: read argv", param.offset)
     elif component.option("userinit"):
         print(f"Warning: comp '{tree.name}' sets 'userinit' without 'userspace', ignoring", file=sys.stderr)
+    _check_c_names(component)
     _check_code(component)
     return component
