@@ -75,9 +75,9 @@ class Loader:
         """(description, patterns) for the open dialog."""
         types, every = [], [".ngc"]
         for line in self.s.ini.findall("FILTER", "PROGRAM_EXTENSION") or []:
-            extensions, _, description = line.partition(" ")
+            extensions, *description = line.split(None, 1) or [""]
             names = extensions.split(",")
-            types.append((description.strip() or extensions, names))
+            types.append((description[0] if description else extensions, names))
             every += names
         return [(translate("All machinable files"), every), (translate("rs274ngc files"), [".ngc"]), *types,
                 (translate("All files"), "*")]

@@ -59,7 +59,7 @@ ini_edit="/^\[DISPLAY\]/,/^\[FILTER\]/{
 /^DEFAULT_LINEAR\|^MAX_LINEAR\|^POSITION_\|^CYCLE_TIME\|^INCREMENTS\|^EDITOR\|^MAX_FEED\|^MIN_SP\|^MAX_SP/d
 }
 /^\[DISPLAY\]/r display
-s|^PROGRAM_EXTENSION|PROGRAM_EXTENSION = .spiral,.sp A spiral\nspiral = $PWD/spiral.sh\n&|
+s|^PROGRAM_EXTENSION|PROGRAM_EXTENSION = .spiral,.sp\t\tA spiral\nspiral = $PWD/spiral.sh\n&|
 s|^\[AXIS_Y\]|&\nTOUCHOFF_ACTUAL = minus|
 s|^TASK = milltask|&\nMDI_QUEUED_COMMANDS = 3|"
 EVERYTHING=1 run "everything set" mill
