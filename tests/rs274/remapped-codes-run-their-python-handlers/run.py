@@ -179,6 +179,19 @@ for body, value in (("yield 2\n    yield 1", "1 1"), ("yield 2\n    yield 0", "0
               files=dict(FILES, **{"python/oword.py": f"def later(self):\n    {body}\n"}))
     check(r.status == 0 and value + " level 0" in r.printed, (body, r.printed, r.err))
 
+# A handler that failed leaves those of other codes and O-word subs as they were.
+r = rs274("M2\n", ini=INI, files=dict(FILES, **{"python/toplevel.py": FILES["python/toplevel.py"] + """
+def __init__(self):
+    for line in 'M405', 'o<square> call [7]':
+        try:
+            self.execute(line)
+        except InterpreterException as e:
+            print(e.error_message.split(':')[0])
+    print(self.return_value)
+from interpreter import InterpreterException
+"""}))
+check(r.status == 0 and r.printed == ["pycall(m405)", "49.0", "delete"], (r.printed, r.err))
+
 # Statements of a comment may execute lines; the comment's own line goes on behind them.
 r = run(";py,this.execute('G0 X3')\n;py,this.execute('o<sub> call [4]')\nG0 X4\nM2\n")
 check(r.status == 0 and [a[0] for n, a in r.moves()] == [3, 4] and "in sub 4.000000" in r.printed, (r.err, r.out))

@@ -202,9 +202,7 @@ class Link final : public PythonLink
             } else {
                 py::exec(py::str(text), main_dict);
             }
-            usable = true;
         } catch (py::error_already_set &e) {
-            usable = false;
             const std::string trace = traceback_of(e);
             fprintf(stderr, "run_string(%s): \n%s", text, trace.c_str());
             FAIL("py_execute(%s)%s:\n%s", text, file ? " as file" : "", trace.c_str());
@@ -362,9 +360,7 @@ class Link final : public PythonLink
         CHECK(!f, "pycall(%s.%s) failed", module, name.c_str());
         try {
             *result = f(self, *args, **words);
-            usable = true;
         } catch (py::error_already_set &e) {
-            usable = false;
             const std::string trace = traceback_of(e);
             fprintf(stderr, "call(%s.%s): \n%s", module, name.c_str(), trace.c_str());
             FAIL("pycall(%s):\n%s", name.c_str(), trace.c_str());
@@ -472,7 +468,8 @@ class Link final : public PythonLink
     std::string toplevel_path;
     struct timespec toplevel_time = {};
     std::vector<Waiting> waiting;
-    bool usable = false, reload_on_change = false, initialised = false;
+    bool usable = false; // TOPLEVEL has run to its end
+    bool reload_on_change = false, initialised = false;
     int log_level = 0;
 };
 
