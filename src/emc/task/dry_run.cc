@@ -45,6 +45,7 @@ DryRun::Result DryRun::step(int lines) {
             return Result::reached;
         }
         if (r == INTERP_OK) r = interp_->execute();
+        if (r == INTERP_EXECUTE_FINISH) canon_->FINISH();
         digest();
         if (r == INTERP_EXECUTE_FINISH) {
             if (watch) watch(nullptr);

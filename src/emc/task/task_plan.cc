@@ -139,6 +139,7 @@ int Task::take_control(const char *name) {
 
 void Task::wait_and_synch() {
     wait_ = true;
+    canon_->FINISH(); // a line that could have been joined with the next one is waited for, too
     list_.append(EMC_TASK_PLAN_SYNCH(), interp_->line());
 }
 

@@ -174,7 +174,8 @@ for program in ("o<huge> call", "G0 X#<_huge>", "(pyrun,nothere.py)"):
 
 # What an O-word sub yields after it has waited is its value; it may wait more than once.
 for body, value in (("yield 2\n    yield 1", "1 1"), ("yield 2\n    yield 0", "0 1"), ("yield 2\n    yield 5", "5 1"),
-                    ("yield 2\n    yield 2\n    yield 3.0", "3 1"), ("yield 2", "0 0"), ("yield 2\n    yield", "0 0")):
+                    ("yield 2\n    yield 2", "2 1"),
+                    ("from interpreter import INTERP_EXECUTE_FINISH as wait\n    yield wait\n    yield wait\n    yield 3.0", "3 1"), ("yield 2", "0 0"), ("yield 2\n    yield", "0 0")):
     r = rs274("o<later> call\n(print,%d#<_value> #<_value_returned> level #<_call_level>)\nM2\n", ini=INI,
               files=dict(FILES, **{"python/oword.py": f"def later(self):\n    {body}\n"}))
     check(r.status == 0 and value + " level 0" in r.printed, (body, r.printed, r.err))
@@ -191,6 +192,38 @@ def __init__(self):
 from interpreter import InterpreterException
 """}))
 check(r.status == 0 and r.printed == ["pycall(m405)", "49.0", "delete"], (r.printed, r.err))
+
+# A handler waits for another one that waits: the inner one goes on first.
+files = dict(FILES)
+files["python/remap.py"] += """
+def change(self, **words):
+    self.execute('M6')
+    yield INTERP_EXECUTE_FINISH
+    print('changed', self.current_tool, self.remap_level)
+    self.execute('G0 Z1')
+    yield INTERP_EXECUTE_FINISH
+    print('done')
+def twice(self, **words):
+    for tool in 1, 2:
+        self.execute(f'T{tool} M6 G0 X{tool}')
+        yield INTERP_EXECUTE_FINISH
+        print('after', self.current_tool, self.remap_level)
+"""
+files["python/oword.py"] += """
+from interpreter import *
+def fetch(self, tool):
+    self.execute('T%d M6' % tool)
+    yield INTERP_EXECUTE_FINISH
+    self.execute('M411')
+    yield INTERP_EXECUTE_FINISH
+    yield self.current_tool
+"""
+r = rs274("o<fetch> call [3]\n(print,%d#<_value> level %d#<_call_level> %d#<_remap_level>)\nM411\nG0 Y5\nM2\n", files=files,
+          ini=INI.replace("prolog=pro epilog=epi ngc=six", "python=change\nREMAP=M411 modalgroup=10 python=twice"))
+both = [text for tool in (1, 2) for text in (f"changed {tool} 2", "done", f"after {tool} 1")]
+check(r.status == 0 and r.printed[1:-1] == ["changed 3 1", "done", *both, "2 level 0 0", *both], (r.printed, r.err))
+check([a[:3] for n, a in r.moves()] == [[0, 0, 1], [0, 0, 1], [1, 0, 1], [1, 0, 1], [2, 0, 1], [2, 0, 1], [1, 0, 1],
+                                       [1, 0, 1], [2, 0, 1], [2, 5, 1]], r.out)
 
 # Statements of a comment may execute lines; the comment's own line goes on behind them.
 r = run(";py,this.execute('G0 X3')\n;py,this.execute('o<sub> call [4]')\nG0 X4\nM2\n")

@@ -346,13 +346,13 @@ py::object exception_type;
     throw py::error_already_set();
 }
 
-int execute(PyInterp &p, const std::string &text, int line)
+py::object execute(PyInterp &p, const std::string &text, int line)
 {
     Setup &s = p.get();
     if (line >= 0) s.sequence_number = line;
     const int status = run_inner(s, text.c_str());
     if (status > INTERP_MIN_ERROR) raise_fault(s);
-    return status;
+    return py::module_::import("interpreter").attr("InterpReturn")(status);
 }
 
 template <class Class, class Member> void value(Class &c, const char *name, Member Setup::*member)
@@ -589,20 +589,18 @@ void bind_self(py::module_ &m)
 
 void bind_interpreter(py::module_ &m)
 {
-    py::enum_<InterpReturn>(m, "InterpReturn", py::arithmetic())
-        .value("INTERP_OK", INTERP_OK)
-        .value("INTERP_EXIT", INTERP_EXIT)
-        .value("INTERP_EXECUTE_FINISH", INTERP_EXECUTE_FINISH)
-        .value("INTERP_ENDFILE", INTERP_ENDFILE)
-        .value("INTERP_FILE_NOT_OPEN", INTERP_FILE_NOT_OPEN)
-        .value("INTERP_ERROR", INTERP_ERROR);
-    // Plain numbers: handlers compare, return and yield them.
-    m.attr("INTERP_OK") = int(INTERP_OK);
-    m.attr("INTERP_EXIT") = int(INTERP_EXIT);
-    m.attr("INTERP_EXECUTE_FINISH") = int(INTERP_EXECUTE_FINISH);
-    m.attr("INTERP_ENDFILE") = int(INTERP_ENDFILE);
-    m.attr("INTERP_FILE_NOT_OPEN") = int(INTERP_FILE_NOT_OPEN);
-    m.attr("INTERP_ERROR") = int(INTERP_ERROR);
+    // Integers that handlers compare, return and yield; a number of their own is told from them (link.cc).
+    py::dict codes;
+    codes["INTERP_OK"] = int(INTERP_OK);
+    codes["INTERP_EXIT"] = int(INTERP_EXIT);
+    codes["INTERP_EXECUTE_FINISH"] = int(INTERP_EXECUTE_FINISH);
+    codes["INTERP_ENDFILE"] = int(INTERP_ENDFILE);
+    codes["INTERP_FILE_NOT_OPEN"] = int(INTERP_FILE_NOT_OPEN);
+    codes["INTERP_ERROR"] = int(INTERP_ERROR);
+    py::object type = py::module_::import("enum").attr("IntEnum")("InterpReturn", codes);
+    type.attr("__module__") = "interpreter";
+    m.attr("InterpReturn") = type;
+    for (const auto &code : codes) m.attr(code.first) = type(code.second);
     m.attr("INTERP_MIN_ERROR") = int(INTERP_MIN_ERROR);
     m.attr("TOLERANCE_EQUAL") = TOLERANCE_EQUAL;
     m.attr("throw_exceptions") = 1;

@@ -381,10 +381,7 @@ class Link final : public PythonLink
         return INTERP_ERROR;
     }
 
-    static bool is_status(const py::object &value)
-    {
-        return PyLong_Check(value.ptr()) || py::isinstance<InterpReturn>(value);
-    }
+    static bool is_status(const py::object &value) { return PyLong_Check(value.ptr()); }
 
     int handler_result(Setup &s, const char *module, const std::string &name, const py::object &result)
     {
@@ -392,7 +389,7 @@ class Link final : public PythonLink
         if (is_status(result)) {
             const int status = status_of(s, result);
             if (status == INTERP_EXECUTE_FINISH) // returned: there is nothing to go on with after the wait
-                waiting.push_back({py::iter(py::tuple()), s.call_level, false, true, name});
+                wait({py::iter(py::tuple()), s.call_level, false, true, name});
             return status;
         }
         if (PyGen_Check(result.ptr())) {
@@ -422,6 +419,14 @@ class Link final : public PythonLink
         FAIL("pycall(oword.%s) failed", name.c_str());
     }
 
+    // What it has called, and waits too, goes on before it.
+    void wait(Waiting w)
+    {
+        auto place = waiting.end();
+        while (place != waiting.begin() && (place - 1)->call_level > w.call_level) --place;
+        waiting.insert(place, std::move(w));
+    }
+
     // The next step of a generator. It stays waiting when it yields INTERP_EXECUTE_FINISH.
     int run_generator(Setup &s, Waiting &w)
     {
@@ -438,13 +443,14 @@ class Link final : public PythonLink
         CHECK(PyGen_Check(value.ptr()) || (value.is_none() && !w.oword),
               "Python generator %s yielded '%s' - expected int, got %s", w.name.c_str(), text_of(value).c_str(),
               type_name(value).c_str());
-        if (is_status(value) && value.equal(py::int_(int(INTERP_EXECUTE_FINISH)))) {
+        // What an O-word sub yields after it has waited is its value; INTERP_EXECUTE_FINISH is no plain number.
+        const bool its_value = w.oword && (!is_status(value) || (w.waited && PyLong_CheckExact(value.ptr())));
+        if (!its_value && is_status(value) && value.equal(py::int_(int(INTERP_EXECUTE_FINISH)))) {
             w.waited = true;
-            waiting.push_back(std::move(w));
+            wait(std::move(w));
             return INTERP_EXECUTE_FINISH;
         }
-        // What an O-word sub yields after it has waited is its value.
-        if (w.oword && (w.waited || !is_status(value))) return oword_result(s, w.name, value);
+        if (its_value) return oword_result(s, w.name, value);
         return handler_result(s, "remap", w.name, value);
     }
 

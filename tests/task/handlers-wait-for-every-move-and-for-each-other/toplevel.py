@@ -1,0 +1,2 @@
+import oword
+import remap
