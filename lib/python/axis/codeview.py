@@ -4,6 +4,8 @@
 Lines are counted from 1. The file is the snapshot that the machine runs, so it does not change.
 """
 
+import codecs
+
 import numpy as np
 
 WINDOW = 6000            # lines in the widget
@@ -63,7 +65,7 @@ class CodeView:
         with open(self.path, "rb") as f:
             f.seek(begin)
             data = f.read(end - begin)
-        parts = data.split(b"\n")
+        parts = (data.removeprefix(codecs.BOM_UTF8) if begin == 0 else data).split(b"\n")
         return [shown(part) for part in parts[:last - first]]
 
     def line_text(self, line):

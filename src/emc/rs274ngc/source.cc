@@ -18,6 +18,8 @@
 namespace ngc
 {
 
+constexpr std::string_view MARK = "\xEF\xBB\xBF"; // of byte order: editors for Windows begin a text with it
+
 LineSource::~LineSource() { close(); }
 
 void LineSource::close()
@@ -100,9 +102,17 @@ bool LineSource::fill(size_t keep_from)
     return true;
 }
 
+// At the beginning of the text.
+void LineSource::skip_mark()
+{
+    while (filled < MARK.size() && !at_end && fill(0)) {}
+    if (std::string_view(window.data(), filled).substr(0, MARK.size()) == MARK) cursor = MARK.size();
+}
+
 bool LineSource::next(std::string_view &line, bool &had_newline)
 {
     if (!is_open()) return false;
+    if (window_start == 0 && cursor == 0) skip_mark();
     size_t scanned = cursor;
     for (;;) {
         const char *from = window.data() + scanned;

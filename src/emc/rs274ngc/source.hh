@@ -53,6 +53,7 @@ class LineSource
   private:
     bool fill(size_t keep_from);
     bool slurp();
+    void skip_mark();
 
     enum { WINDOW = 256 * 1024 };
     int fd = -1;

@@ -68,4 +68,9 @@ check(run.error == "Nested subroutine definition" and "o100 sub" in run.err, f"F
 run = rs274("o<f> call [1]\nM2\n", files={"f.ngc": "o<f> sub\no7 sub\no7 endsub\no<f> endsub\n"})
 check(run.error == "Nested subroutine definition: 'O7 sub' found inside called subroutine 'Of'", run.error)
 check(prints("%\no<p> call\n(print,back)\n%\n", files={"p.ngc": "%\no<p> sub\n(print,in)\no<p> endsub\n%\n"}) == ["in", "back"], "FP-103: percent files")
+mark = "\ufeff"      # editors for Windows begin a text with it
+check(prints(mark + "%\no<s> call [3]\n(print,#<_value>)\n%\n",
+             files={"s.ngc": mark + "o<s> sub\no<s> return [#1+1]\no<s> endsub\n"}) == ["4"], "byte order mark")
+check(prints(mark) == prints(""), "nothing but a byte order mark")
+check("Bad character" in prints("G0 X1\n" + mark + "G0 X2\nM2\n")[-1], "a byte order mark in the middle")
 done()
