@@ -2,11 +2,13 @@
 """What the realtime script knows: is this machine fit for realtime, does the host run?
 
 Every function runs the script (environment variable REALTIME, else the one of this
-installation) and waits for it. An exit status other than 0 and 1 is a RuntimeError.
+installation) and waits for it. An exit status other than 0 and 1 is a RuntimeError; only then
+what the script wrote to standard error, its advice, is passed on.
 """
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 
@@ -23,8 +25,10 @@ def _script():
 
 def _run(command):
     args = [_script(), command]
-    done = subprocess.run(args, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+    done = subprocess.run(args, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True)
     if done.returncode not in (0, 1):
+        sys.stderr.write(done.stderr)
         raise RuntimeError(f'cmd "{" ".join(args)}" failed with status {done.returncode}')
     return done.returncode == 0, done.stdout.rstrip()
 
