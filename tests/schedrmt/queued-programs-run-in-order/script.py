@@ -92,6 +92,7 @@ clock.wait_until(lambda: b"ERROR" in a.raw(b"GET QMODE\r"), 100, 0.1)
 a.say("GET QMODE", "SET QMODE STOP", "GET QSTATUS")
 c.state(STATE_OFF)
 a.say("SET PGMADD 1 0 0 0 0 1 one.ngc 100 100 1", "SET QMODE RUN")
+clock.wait_until(lambda: b"RUN" not in a.raw(b"GET QMODE\r"), 1000, 0.1)  # its sockets are served in wall time
 sleep(5)
 a.say("GET QMODE")
 print("nothing moved:", messages()[-1:])
@@ -119,7 +120,7 @@ for what, stop in (("abort", c.abort), ("machine off", lambda: c.state(STATE_OFF
     if poll().task_state != STATE_ON:
         on(home=False)
     sleep(3)
-    clock.wait_until(lambda: b"RUN" not in a.raw(b"GET QMODE\r"), 100, 0.1)  # its sockets are served in wall time
+    clock.wait_until(lambda: b"RUN" not in a.raw(b"GET QMODE\r"), 1000, 0.1)
     print(f"{what}: {'stands' if poll().interp_state == INTERP_IDLE else 'goes on'}", *[a.raw(b"GET QMODE\r")],
           messages()[:1])
 print("== a job with a mistake ends it too; a command of another program that is refused does not")
